@@ -53,16 +53,21 @@ def start_over_bare(campaign: Campaign) -> float | None:
     return median(campaign.cold_start_s) / median(campaign.bare_start_s)
 
 
-def local_over_sumo(campaign: Campaign, plan: Plan) -> float | None:
-    """Return the local tick as a multiple of SUMO's step with its state read, None likewise."""
+def local_over_sumo(campaign: Campaign, plan: Plan) -> tuple[float, float] | None:
+    """Return the local tick over SUMO's step with its state read (CPU, wall), None likewise."""
     base = find(campaign.measured, 'local', plan.base.agents, plan.base.seconds)
-    return None if base is None else median(run.over_sumo for run in base.runs)
+    if base is None:
+        return None
+    return (
+        median(run.over_sumo for run in base.runs),
+        median(run.over_sumo_wall for run in base.runs),
+    )
 
 
 def goals(campaign: Campaign, plan: Plan) -> tuple[Goal, ...]:
     """Return every goal with what was found.
 
-    On a busy machine goals of time are stated and not judged, in neither direction.
+    On a busy machine goals of wall time are stated and not judged, in neither direction.
     """
     quiet = campaign.is_quiet
     found: list[Goal] = []
@@ -117,14 +122,18 @@ def _graph_goals(campaign: Campaign, plan: Plan) -> tuple[Goal, ...]:
         _goal(
             "local: tick / SUMO's step with its state read",
             f'at most {SUMO_GOAL:g}',
-            _at_most(sumo, SUMO_GOAL),
-            quiet=quiet,
+            None if sumo is None else (_cpu_and_wall(*sumo), sumo[0] <= SUMO_GOAL),
+            quiet=True,  # CPU time over CPU time of the same runs
         ),
     )
 
 
 def _at_most(ratio: float | None, limit: float) -> tuple[str, bool] | None:
     return None if ratio is None else (f'{ratio:.2f}', ratio <= limit)
+
+
+def _cpu_and_wall(cpu: float, wall: float) -> str:
+    return f'{cpu:.2f} CPU, {wall:.2f} wall'
 
 
 def _goal(name: str, target: str, found: tuple[str, bool] | None, *, quiet: bool) -> Goal:

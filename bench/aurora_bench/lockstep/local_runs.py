@@ -8,7 +8,11 @@ import gc
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
 
 from aurora_bench.lockstep.figures import AIR, EXECUTOR, RECORDER, SUMO, RunFigures
 from aurora_bench.lockstep.scenarios import SEED
@@ -28,11 +32,16 @@ from aurora_uav_bridge.mavlink_client import MavlinkClient
 from aurora_uav_bridge.transports import LoopbackTransport
 from aurora_uav_sim.mavlink_server import SimServer
 
+# So many ticks tell what the watch itself takes.
+_COST_TICKS = 5000
+
 
 class Stopwatch:
     """CPU time of the parts of the loop, and when the loop began and ended (ns).
 
-    The parts run in one thread. CPU time, since a busy machine would add its own to each part.
+    The parts run in one thread, and all but the recorder one after the other: asking for its time
+    costs so much that each part begins where the one before ended. CPU time, since a busy machine
+    would add its own to each part.
     """
 
     def __init__(self) -> None:
@@ -40,7 +49,7 @@ class Stopwatch:
         self.load_ns: dict[str, int] = dict.fromkeys((SUMO, AIR), 0)
         self.sumo_wall_ns = 0
         self.begin_ns = self.end_ns = 0
-        self.begin_cpu_ns = self.end_cpu_ns = 0
+        self.begin_cpu_ns = self.end_cpu_ns = self.mark_ns = 0
         self.ticks = 0
 
     def loading(self, part: str, load: Callable[[], None]) -> None:
@@ -49,7 +58,18 @@ class Stopwatch:
         load()
         self.begin_ns = time.perf_counter_ns()
         self.begin_cpu_ns = time.process_time_ns()
+        self.mark()
         self.load_ns[part] += self.begin_ns - begin
+
+    def mark(self) -> None:
+        """Begin a part here."""
+        self.mark_ns = time.thread_time_ns()
+
+    def spend(self, part: str) -> None:
+        """End a part that began at the mark, or where the one before ended."""
+        now_ns = time.thread_time_ns()
+        self.spent_ns[part] += now_ns - self.mark_ns
+        self.mark_ns = now_ns
 
     def stop(self) -> None:
         """End the loop (a second time does nothing)."""
@@ -71,10 +91,12 @@ class _Ground:
         return self._inner.state()
 
     def advance(self, tick: int, commands: tuple[GroundCommand, ...]) -> FloatArray:
-        begin, begin_wall = time.thread_time_ns(), time.perf_counter_ns()
+        watch = self._watch
+        watch.mark()
+        begin_ns = time.perf_counter_ns()
         rows = self._inner.advance(tick, commands)
-        self._watch.sumo_wall_ns += time.perf_counter_ns() - begin_wall
-        self._watch.spent_ns[SUMO] += time.thread_time_ns() - begin
+        watch.sumo_wall_ns += time.perf_counter_ns() - begin_ns
+        watch.spend(SUMO)
         return rows
 
     def close(self) -> None:
@@ -96,9 +118,8 @@ class _Air:
         return self._inner.state()
 
     def advance(self, tick: int, commands: FloatArray) -> FloatArray:
-        begin = time.thread_time_ns()
-        rows = self._inner.advance(tick, commands)
-        self._watch.spent_ns[AIR] += time.thread_time_ns() - begin
+        rows = self._inner.advance(tick, commands)  # begins where SUMO ended
+        self._watch.spend(AIR)
         return rows
 
     def close(self) -> None:
@@ -114,11 +135,36 @@ class _Step:
         self._watch = watch
 
     def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
-        begin = time.thread_time_ns()
-        output = self._inner.step(tick, ground, uav)
-        self._watch.spent_ns[EXECUTOR] += time.thread_time_ns() - begin
+        output = self._inner.step(tick, ground, uav)  # begins where the air ended
+        self._watch.spend(EXECUTOR)
         self._watch.ticks = tick + 1
         return output
+
+
+class _Nothing:
+    """Simulators and executor that do nothing."""
+
+    def advance(self, tick: int, commands: Any) -> Any:
+        return None
+
+    def step(self, tick: int, ground: Any, uav: Any) -> Any:
+        return None
+
+
+@cache
+def watch_cost() -> dict[str, float]:
+    """Return the CPU seconds per tick that the watch takes by itself: by part, and ''  for all."""
+    watch, nothing, none = Stopwatch(), _Nothing(), np.empty(0)
+    ground, air = _Ground(cast('Any', nothing), watch), _Air(cast('Any', nothing), watch)
+    step = _Step(cast('Any', nothing), watch)
+    watch.mark()
+    begin = time.thread_time()
+    for tick in range(_COST_TICKS):
+        step.step(tick, none, none)
+        ground.advance(tick, ())
+        air.advance(tick, none)
+    spent = {name: ns / 1e9 / _COST_TICKS for name, ns in watch.spent_ns.items()}
+    return {**spent, '': (time.thread_time() - begin) / _COST_TICKS}
 
 
 def measure_local(agsg: Agsg, bag_directory: Path) -> RunFigures:
@@ -188,8 +234,11 @@ def _prepared(agsg: Agsg) -> tuple[int, Execution, _Ground, _Air, Stopwatch]:
 def _figures(
     watch: Stopwatch, execution: Execution, begin: int, end: int, sha256: str
 ) -> RunFigures:
-    cpu_s = (watch.end_cpu_ns - watch.begin_cpu_ns) / 1e9
-    parts = {name: spent / 1e9 for name, spent in watch.spent_ns.items()}
+    cost = watch_cost()
+    cpu_s = (watch.end_cpu_ns - watch.begin_cpu_ns) / 1e9 - cost[''] * watch.ticks
+    parts = {
+        name: spent / 1e9 - cost[name] * watch.ticks for name, spent in watch.spent_ns.items()
+    }
     # What is left is writing the bag, and a loop of a few lines.
     parts[RECORDER] = max(0.0, cpu_s - sum(parts.values()))
     return RunFigures(

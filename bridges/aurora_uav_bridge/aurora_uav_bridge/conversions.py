@@ -20,7 +20,7 @@ from aurora_core.geometry.frames import (
     yaw_enu_to_ned,
 )
 from aurora_core.ports.simulators import AirLoad, UavHome
-from aurora_core.trace.layout import UAV_WIDTH, UavColumn, UavCommandColumn, UavMode
+from aurora_core.trace.layout import UavCommandColumn, UavMode
 from aurora_uav_bridge.errors import CommandRangeError
 from aurora_uav_sim.lockstep import MAX_TICK_US, MIN_TICK_US
 from aurora_uav_sim.protocol import (
@@ -37,12 +37,6 @@ MAX_YAW_RAD = 100.0
 MAX_TAKEOFF_ALTITUDE_M = 1_000.0
 MAX_WIND_MPS = 50.0
 _FRAME_LOCAL_NED = 1
-# Parts of a state row.
-_POSITION = slice(UavColumn.X, UavColumn.VX)
-_VELOCITY = slice(UavColumn.VX, UavColumn.QW)
-_ATTITUDE = slice(UavColumn.QW, UavColumn.P)
-_RATES = slice(UavColumn.P, UavColumn.ARMED)
-_STATUS = slice(UavColumn.ARMED, UavColumn.LANDED + 1)
 _FLOWN = UavCommandColumn.TAKEOFF_ALTITUDE + 1
 _MODES = {
     float(mode): mode for mode in (UavMode.IDLE, UavMode.TAKEOFF, UavMode.OFFBOARD, UavMode.LAND)
@@ -164,29 +158,26 @@ def set_point_fields(home: UavHome, tick: int, row: Sequence[float]) -> tuple[An
     )  # fmt: skip
 
 
-def empty_row() -> list[float]:
-    """Return a state row to be filled."""
-    return [0.0] * UAV_WIDTH
+def state_row(
+    home: UavHome, position: tuple[Any, ...], attitude: tuple[Any, ...], status: tuple[Any, ...]
+) -> list[float]:
+    """Return a state row in the order of `UavColumn`.
 
-
-def fill_position(row: list[float], home: UavHome, fields: tuple[Any, ...]) -> None:
-    """Put LOCAL_POSITION_NED (wire order) into a state row."""
-    _, north, east, down, v_north, v_east, v_down = fields
+    Args:
+        home: Of the UAV.
+        position: Fields of LOCAL_POSITION_NED in wire order.
+        attitude: Fields of ATTITUDE_QUATERNION in wire order.
+        status: Mode, armed and landed.
+    """
+    _, north, east, down, v_north, v_east, v_down = position
     x, y, z = ned_to_enu(north, east, down)
-    row[_POSITION] = (home.x_m + x, home.y_m + y, z)
-    row[_VELOCITY] = ned_to_enu(v_north, v_east, v_down)
-
-
-def fill_attitude(row: list[float], fields: tuple[Any, ...]) -> None:
-    """Put ATTITUDE_QUATERNION (wire order) into a state row."""
-    _, w, x, y, z, roll_rate, pitch_rate, yaw_rate, *_ = fields
-    row[_ATTITUDE] = attitude_ned_to_enu(w, x, y, z)
-    row[_RATES] = frd_to_flu(roll_rate, pitch_rate, yaw_rate)
-
-
-def fill_status(row: list[float], mode: int, armed: bool, landed: bool) -> None:
-    """Put mode, armed and landed into a state row."""
-    row[_STATUS] = (1.0 if armed else 0.0, float(mode), 1.0 if landed else 0.0)
+    vx, vy, vz = ned_to_enu(v_north, v_east, v_down)
+    mode, armed, landed = status
+    return [
+        home.x_m + x, home.y_m + y, z, vx, vy, vz,
+        *attitude_ned_to_enu(*attitude[1:5]), *frd_to_flu(*attitude[5:8]),
+        float(armed), float(mode), float(landed),
+    ]  # fmt: skip
 
 
 def all_finite(rows: Sequence[Sequence[float]]) -> bool:

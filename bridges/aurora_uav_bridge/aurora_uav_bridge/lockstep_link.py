@@ -16,6 +16,7 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from aurora_core.errors import AirSimulatorError
 from aurora_core.ports.simulators import UavHome
+from aurora_core.trace.layout import UAV_WIDTH
 from aurora_uav_bridge import conversions
 from aurora_uav_bridge.errors import (
     CommandRefusedError,
@@ -61,7 +62,10 @@ _ACK_ID = COMMAND_ACK.message_id
 _POSITION_ID = LOCAL_POSITION.message_id
 _ATTITUDE_ID = ATTITUDE.message_id
 _NAMED_INT_ID = NAMED_INT.message_id
-_POSITION, _ATTITUDE, _STATUS, _COMPLETE = 1, 2, 4, 7
+# What a vehicle's state comes in.
+_PIECES = {layout.message_id: layout for layout in (LOCAL_POSITION, ATTITUDE, NAMED_INT)}
+# Plain numbers: before Python 3.12 a member is slow to look up, and each tick asks.
+_ACCEPTED, _DENIED = int(Result.ACCEPTED), int(Result.DENIED)
 
 Packer = Callable[[], bytes]
 
@@ -94,7 +98,7 @@ class LockstepLink:
         self._homes = homes
         self._index = {home.system_id: i for i, home in enumerate(homes)}
         self.first = min(self._index)
-        self.rows = [conversions.empty_row() for _ in homes]
+        self.rows = [[0.0] * UAV_WIDTH for _ in homes]
         self._nonce = nonce
         self._sequence = sequence
         self._newer = Newer()
@@ -106,7 +110,7 @@ class LockstepLink:
         self._text = ''
         # ... or a tick.
         self._tick = -1
-        self._pieces: list[int] = []
+        self._pieces: list[dict[int, tuple[Any, ...]]] = []
         self._missing = 0
         self._acknowledged = False
         self._disowned = 0
@@ -183,14 +187,20 @@ class LockstepLink:
             return out
 
         self._tick = tick
-        self._pieces = [0] * len(self.rows)
-        self._missing = len(self.rows)
+        self._pieces = [{} for _ in self._homes]
+        self._missing = len(_PIECES) * len(self._homes)
         self._acknowledged = False
         self._disowned = 0
         try:
             self._exchange(packer, self._has_tick, f'step to tick {tick}', self._timeout_s)
         finally:
             self._tick = -1
+        self.rows = [
+            conversions.state_row(
+                home, pieces[_POSITION_ID], pieces[_ATTITUDE_ID], pieces[_NAMED_INT_ID]
+            )
+            for home, pieces in zip(self._homes, self._pieces, strict=True)
+        ]
         if not conversions.all_finite(self.rows):
             raise AirSimulatorError(f'uav_sim reported a number that is not finite at tick {tick}')
 
@@ -211,7 +221,7 @@ class LockstepLink:
         finally:
             self._ack_of = (-1, -1)
         result = self._acks[0]
-        if result != Result.ACCEPTED:
+        if result != _ACCEPTED:
             word = Result(result).name if result in tuple(Result) else f'result {result}'
             reason = f': {self._text}' if self._text else ''
             text = f'{name}: expected ACCEPTED, found {word}{reason}'
@@ -271,48 +281,28 @@ class LockstepLink:
             i = self._index.get(system_id)
             if i is None or not self._newer.accept(frame):
                 continue
-            if self._tick >= 0:
-                self._take_state(i, message_id, payload)
-            if message_id == _STATUS_TEXT:
+            layout = _PIECES.get(message_id)
+            if layout is not None:
+                fields = layout.unpack(payload)
+                if fields[0] != self._tick:
+                    continue
+                is_status = message_id == _NAMED_INT_ID
+                piece = unpack_status(fields[1], self._nonce) if is_status else fields
+                if piece is not None:
+                    pieces = self._pieces[i]
+                    self._missing -= message_id not in pieces
+                    pieces[message_id] = piece
+            elif message_id == _STATUS_TEXT:
                 message = self._decoder.decode(frame)
                 if message is not None:
                     self._text = str(message.text)
-
-    def _take_state(self, i: int, message_id: int, payload: bytes) -> None:
-        """Take a piece of a vehicle's state at the tick that was asked for."""
-        row = self.rows[i]
-        if message_id == _POSITION_ID:
-            fields = LOCAL_POSITION.unpack(payload)
-            if fields[0] != self._tick:
-                return
-            conversions.fill_position(row, self._homes[i], fields)
-            piece = _POSITION
-        elif message_id == _ATTITUDE_ID:
-            fields = ATTITUDE.unpack(payload)
-            if fields[0] != self._tick:
-                return
-            conversions.fill_attitude(row, fields)
-            piece = _ATTITUDE
-        elif message_id == _NAMED_INT_ID:
-            fields = NAMED_INT.unpack(payload)
-            status = unpack_status(fields[1], self._nonce)
-            if fields[0] != self._tick or status is None:
-                return
-            conversions.fill_status(row, *status)
-            piece = _STATUS
-        else:
-            return
-        if self._pieces[i] != _COMPLETE:
-            self._pieces[i] |= piece
-            if self._pieces[i] == _COMPLETE:
-                self._missing -= 1
 
     def _take_ack(self, frame: Frame) -> None:
         # `number` is the tick of a step and the nonce of everything else.
         command, result, _, number, target_system, _ = COMMAND_ACK.unpack(frame.payload)
         if target_system != OWN_SYSTEM:
             return
-        if command == CMD_STEP and result == Result.DENIED and self._tick >= 0:
+        if command == CMD_STEP and result == _DENIED and self._tick >= 0:
             self._check_disowned(number)
         if command == CMD_LOCKSTEP and number == self._nonce and self._waits_for(frame, command):
             # The simulator may be a new process that counts its frames from 0.
@@ -322,7 +312,7 @@ class LockstepLink:
         if command != CMD_STEP:
             if number == self._nonce and self._waits_for(frame, command):
                 self._acks.append(int(result))
-        elif number == self._tick and result == Result.ACCEPTED:
+        elif number == self._tick and result == _ACCEPTED:
             self._acknowledged = True
         # Otherwise a set-point is missing (the question will be repeated) or the answer is old.
 

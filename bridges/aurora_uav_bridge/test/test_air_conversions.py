@@ -11,7 +11,13 @@ from typing import Any
 import pytest
 
 from aurora_core.ports.simulators import AirLoad, UavHome
-from aurora_core.trace.layout import UAV_COMMAND_WIDTH, UavColumn, UavCommandColumn, UavMode
+from aurora_core.trace.layout import (
+    UAV_COMMAND_WIDTH,
+    UAV_WIDTH,
+    UavColumn,
+    UavCommandColumn,
+    UavMode,
+)
 from aurora_uav_bridge import conversions
 from aurora_uav_bridge.errors import CommandRangeError
 from aurora_uav_sim.autopilot import Target
@@ -123,12 +129,15 @@ def test_tick_length(dt_s: float, us: int) -> None:
 
 
 def test_state_row_is_enu_around_the_home() -> None:
-    row = conversions.empty_row()
-    conversions.fill_position(row, HOME, (5, 2.0, 1.0, -3.0, 5.0, 4.0, -6.0))
     half = math.sqrt(0.5)
-    # FRD to NED, level, nose to the east: 90 degrees clockwise from north.
-    conversions.fill_attitude(row, (5, half, 0.0, 0.0, half, 0.1, 0.2, 0.3, 0.0, 0.0, 0.0, 0.0))
-    conversions.fill_status(row, UavMode.LAND, True, False)
+    row = conversions.state_row(
+        HOME,
+        (5, 2.0, 1.0, -3.0, 5.0, 4.0, -6.0),
+        # FRD to NED, level, nose to the east: 90 degrees clockwise from north.
+        (5, half, 0.0, 0.0, half, 0.1, 0.2, 0.3, 0.0, 0.0, 0.0, 0.0),
+        (UavMode.LAND, True, False),
+    )
+    assert len(row) == UAV_WIDTH
     assert row[: UavColumn.QW] == [101.0, -48.0, 3.0, 4.0, 5.0, 6.0]
     assert row[UavColumn.QW : UavColumn.P] == pytest.approx([1.0, 0.0, 0.0, 0.0])
     assert row[UavColumn.P : UavColumn.ARMED] == [0.1, -0.2, -0.3]

@@ -64,6 +64,8 @@ _SESSION_SILENCE_S = 60.0
 _MAX_CATCH_UP_S = 0.25
 # Old nonces, to tell a late duplicate of an old session from a new one.
 _REMEMBERED_NONCES = 64
+# Plain name: before Python 3.12 a member is slow to look up, and each tick asks.
+_ACCEPTED = Result.ACCEPTED
 _UNSIGNED = Answer(Result.DENIED, 'Not signed with the key')
 
 
@@ -133,19 +135,19 @@ class SimServer:
                 link = self._new_link(source)
             link.heard = True
             session = self._session
-            sender = (frame.system_id, frame.component_id)
+            message_id, _, system_id, component_id, payload, _ = frame
+            sender = (system_id, component_id)
             if session is not None and self._owns(session, source, sender):
                 if not session.newer.accept(frame):
                     # A new client may count from 0 again on the same port.
-                    if frame.message_id == _COMMAND_LONG_ID and _is_lockstep(frame):
+                    if message_id == _COMMAND_LONG_ID and _is_lockstep(frame):
                         self._message(frame, source, link, out)
                     continue
-                message_id = frame.message_id
                 if message_id == _SET_POINT_ID:
-                    session.take_set_point(frame.payload)
+                    session.take_set_point(payload)
                     continue
                 if message_id == _COMMAND_LONG_ID:
-                    fields = COMMAND_LONG.unpack(frame.payload)
+                    fields = COMMAND_LONG.unpack(payload)
                     if fields[7] == CMD_STEP:
                         self._step(session, fields[0], frame, link, out)
                         continue
@@ -175,7 +177,7 @@ class SimServer:
     ) -> None:
         tick = whole(param1)
         result = Result.DENIED if tick is None else session.step(tick)
-        if result is Result.ACCEPTED:
+        if result is _ACCEPTED:
             out.append(session.states(link.sequences))
         first = next(iter(session.fleet))
         out.append(
@@ -344,7 +346,7 @@ class SimServer:
 
     def _owns(self, session: Session, source: Hashable, sender: tuple[int, int]) -> bool:
         """Return whether the datagram under way is from the session's owner."""
-        return self._trusted and session.owned_by(source, sender)
+        return self._trusted and session.source == source and session.sender == sender
 
     def _leave(self) -> None:
         self._session = None

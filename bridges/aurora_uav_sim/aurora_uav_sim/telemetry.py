@@ -54,16 +54,25 @@ _SOFTWARE_VERSION = 0x010E00FF
 _SATELLITES = 12
 
 
+# Plain names: before Python 3.12 a member is slow to look up, and each tick asks.
+_OFFBOARD, _HOLD = FlightMode.OFFBOARD, FlightMode.HOLD
+_TAKEOFF, _LAND = FlightMode.TAKEOFF, FlightMode.LAND
+_UAV_IDLE, _UAV_HOLD, _UAV_OFFBOARD = UavMode.IDLE, UavMode.HOLD, UavMode.OFFBOARD
+
+
 def uav_mode(autopilot: Autopilot) -> UavMode:
     """Return the flight mode in the words of the trace."""
     if not autopilot.armed:
-        return UavMode.IDLE
-    if autopilot.mode is FlightMode.HOLD:
-        return UavMode.IDLE if autopilot.landed else UavMode.HOLD
-    if autopilot.mode is FlightMode.TAKEOFF:
+        return _UAV_IDLE
+    mode = autopilot.mode
+    if mode is _OFFBOARD:
+        return _UAV_OFFBOARD
+    if mode is _HOLD:
+        return _UAV_IDLE if autopilot.landed else _UAV_HOLD
+    if mode is _TAKEOFF:
         return UavMode.TAKEOFF
     # Mission, return and position do not exist in lockstep, whose trace these words are for.
-    return UavMode.LAND if autopilot.mode is FlightMode.LAND else UavMode.OFFBOARD
+    return UavMode.LAND if mode is _LAND else _UAV_OFFBOARD
 
 
 def _boot_ms(vehicle: Vehicle) -> int:

@@ -4,9 +4,9 @@
 
 pymavlink needs 4 us to pack and 8 us to parse a message. A tick carries at least six, so these
 few are packed with `struct` here, byte for byte as pymavlink does it (a test compares them);
-everything else goes through pymavlink (`decode`). `plain_split`, `plain_pack` and `PlainLayout`
-say what a frame is; where set-up could compile their twins (`native/wire.c`), these do the same
-five times as fast.
+everything else goes through pymavlink (`decode`). `plain_split`, `plain_pack`, `PlainLayout` and
+`PlainNewer` say what is done; where set-up could compile their twins (`native/wire.c`), these do
+the same five times as fast.
 
 A datagram is a whole: a frame that does not end inside it is lost, and never waits for the next
 datagram as a stream parser would let it.
@@ -19,7 +19,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from pymavlink.dialects.v20 import common as mavlink
 
@@ -245,7 +245,7 @@ class Sequence:
         return frame
 
 
-class Newer:
+class PlainNewer:
     """Lets each sender's frames through once and in order: stale duplicates stop here.
 
     The counter wraps at 256, so of two frames the one less than half a turn ahead is newer.
@@ -265,3 +265,7 @@ class Newer:
             return False
         self._last[sender] = sequence
         return True
+
+
+_compiled_newer: Any = PlainNewer if _twin is None else _twin.Newer
+Newer = PlainNewer if TYPE_CHECKING else _compiled_newer

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import common as mavlink
 
 from aurora_uav_sim import wire
-from aurora_uav_sim.wire import Decoder, Frame, Newer, Sequence, split
+from aurora_uav_sim.wire import Decoder, Frame, Newer, PlainNewer, Sequence, split
 
 f32 = st.floats(width=32, allow_nan=False)
 u8 = st.integers(0, 255)
@@ -154,19 +154,29 @@ def numbered(sequence: int, system: int = 1) -> Frame:
     return Frame(0, sequence, system, 1, b'', b'')
 
 
-def test_newer_lets_each_frame_through_once_and_in_order() -> None:
-    newer = Newer()
+@pytest.mark.parametrize('make', [Newer, PlainNewer])
+def test_newer_lets_each_frame_through_once_and_in_order(make: type[PlainNewer]) -> None:
+    newer = make()
     assert [newer.accept(numbered(n)) for n in (5, 6, 6, 5, 9, 7)] == [
         True, True, False, False, True, False,
     ]  # fmt: skip
 
 
-def test_newer_wraps_and_keeps_senders_apart() -> None:
-    newer = Newer()
+@pytest.mark.parametrize('make', [Newer, PlainNewer])
+def test_newer_wraps_and_keeps_senders_apart(make: type[PlainNewer]) -> None:
+    newer = make()
     assert newer.accept(numbered(250))
     assert newer.accept(numbered(3))
     assert not newer.accept(numbered(251))
     assert newer.accept(numbered(251, system=2))
+
+
+def test_both_filters_let_the_same_frames_through() -> None:
+    chance = random.Random(4)
+    filters = Newer(), PlainNewer()
+    for _ in range(5000):
+        frame = Frame(0, chance.randrange(256), chance.randrange(3), chance.randrange(2), b'', b'')
+        assert filters[0].accept(frame) == filters[1].accept(frame)
 
 
 @pytest.mark.skipif(not wire.IS_COMPILED, reason='frames are not compiled here')

@@ -13,7 +13,7 @@ from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.ports.simulators import FloatArray
 from aurora_core.trace import messages
-from aurora_core.trace.bag_writer import FLUSH_NS, BagWriter, Message
+from aurora_core.trace.bag_writer import SYNC_NS, BagWriter, Message
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.messages import MessageBuilder, time_ns
 from aurora_core.trace.messages_world import world_message
@@ -44,7 +44,7 @@ class LocalRecorder:
         self._encode = TickEncoder(definitions, _RUN_NUMBER, dt_s)
         self._dt = dt_s
         self._ticks: list[tuple[int, FloatArray, FloatArray, StepOutput]] = []
-        self._together = max(1, round(FLUSH_NS / 1e9 / dt_s))
+        self._together = max(1, round(SYNC_NS / 1e9 / dt_s))
 
     def prologue(
         self, run_id: str, roster: Roster, world: WorldModel, agsg: Agsg | None = None

@@ -8,9 +8,12 @@ applied to reach tick k + 1; everything is recorded with the tick it belongs to.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from contextlib import closing
+from itertools import chain
 from operator import attrgetter
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -22,13 +25,14 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.pipeline.stages import ExecutionResult, RunControl
 from aurora_core.ports.simulators import AirSimulator, FloatArray, GroundSimulator
 from aurora_core.trace.bag_writer import BagWriter
-from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.hashing import trace_hashes
 from aurora_core.trace.layout import UAV_COMMAND_WIDTH, UAV_WIDTH
-from aurora_core.trace.records import EventRecord, LinkRecord, SightRecord
+from aurora_core.trace.records import EventRecord, LinkRecord
 from aurora_core.trace.roster import Roster
 from aurora_core.trace.trace import Trace
+
+Record = TypeVar('Record', LinkRecord, EventRecord)
 
 
 class TraceCollector:
@@ -40,41 +44,36 @@ class TraceCollector:
 
     def __init__(self, roster: Roster) -> None:
         self._roster = roster
-        self._ground: list[FloatArray] = []
-        self._uav: list[FloatArray] = []
-        # What was applied to reach each tick: nothing to reach the first.
-        self._ground_commands: list[tuple[GroundCommand, ...]] = [()]
-        self._uav_commands: list[FloatArray] = [np.zeros((len(roster.uavs), UAV_COMMAND_WIDTH))]
-        self._links: list[LinkRecord] = []
-        self._sights: list[SightRecord] = []
-        self._events: list[EventRecord] = []
+        self._ticks: list[tuple[FloatArray, FloatArray, StepOutput]] = []
 
     def add(self, ground: FloatArray, uav: FloatArray, output: StepOutput) -> None:
         """Take the states of the next tick and what the executor made of them.
 
         The arrays are kept, so they must not change afterwards.
         """
-        self._ground.append(ground)
-        self._uav.append(uav)
-        self._ground_commands.append(output.ground_commands)
-        self._uav_commands.append(output.uav_commands)
-        self._links += output.links
-        self._sights += output.sights
-        self._events += output.events
+        self._ticks.append((ground, uav, output))
 
     def trace(self) -> Trace:
         """Return the run so far; the commands of the last step were not applied any more."""
-        ticks = len(self._ground)
+        ground, uav, outputs = zip(*self._ticks, strict=True)
+        # What was applied to reach each tick: nothing to reach the first.
+        uavs = len(self._roster.uavs)
+        uav_commands = [np.zeros((uavs, UAV_COMMAND_WIDTH)), *(o.uav_commands for o in outputs)]
+        sights = chain.from_iterable(o.sights for o in outputs)
         return Trace(
             roster=self._roster,
-            ground=np.array(self._ground),
-            uav=np.array(self._uav).reshape(ticks, len(self._roster.uavs), UAV_WIDTH),
-            uav_commands=np.array(self._uav_commands[:ticks]),
-            ground_commands=tuple(self._ground_commands[:ticks]),
-            links=tuple(sorted(self._links, key=attrgetter('sequence'))),
-            sights=tuple(sorted(self._sights, key=attrgetter('tick', 'observer', 'target'))),
-            events=tuple(sorted(self._events, key=attrgetter('sequence'))),
+            ground=np.array(ground),
+            uav=np.array(uav).reshape(len(uav), uavs, UAV_WIDTH),
+            uav_commands=np.array(uav_commands[:-1]),
+            ground_commands=((), *(o.ground_commands for o in outputs[:-1])),
+            links=_in_turn(o.links for o in outputs),
+            sights=tuple(sorted(sights, key=attrgetter('tick', 'observer', 'target'))),
+            events=_in_turn(o.events for o in outputs),
         )
+
+
+def _in_turn(records: Iterable[tuple[Record, ...]]) -> tuple[Record, ...]:
+    return tuple(sorted(chain.from_iterable(records), key=attrgetter('sequence')))
 
 
 def run_lockstep(

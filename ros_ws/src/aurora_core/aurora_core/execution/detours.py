@@ -28,6 +28,8 @@ BoolArray = npt.NDArray[np.bool_]
 Point2 = tuple[float, float]
 Point3 = tuple[float, float, float]
 
+# Plain name: before Python 3.12 a member is slow to look up, and each tick asks.
+_TRACK = MissionMode.TRACK
 # The way is looked at so often, and a detour is planned again so often (s).
 _LOOKS_EVERY_S = 0.5
 _PLANS_EVERY_S = 2.0
@@ -153,13 +155,13 @@ def _goal(machine: MissionMachine, target: TargetMotion | None) -> Point3 | None
     mission = machine.mission
     if mission is None:
         return None
-    if mission.mode is MissionMode.TRACK:
+    if mission.mode is _TRACK:
         if target is None:
             return None
         x_m, y_m = mission.offset_m
         return target.x_m + x_m, target.y_m + y_m, mission.altitude_m
     index = machine.plan.missions.index(mission)
-    followed = index > 0 and machine.plan.missions[index - 1].mode is MissionMode.TRACK
+    followed = index > 0 and machine.plan.missions[index - 1].mode is _TRACK
     if index == 0 or not (mission.waits or followed):
         return None
     return mission.waypoints[0] if mission.waypoints else mission.hover_point

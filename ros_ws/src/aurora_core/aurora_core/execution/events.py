@@ -175,7 +175,7 @@ class EventRunner:
 
     def keeps_up(self, plan: UavPlan, tick: int) -> bool:
         """Tell whether something is still to happen before a UAV lands after its missions."""
-        return any(
+        return bool(self._states) and any(
             s.event.id in plan.lands_after
             or (
                 s.event.trigger is None

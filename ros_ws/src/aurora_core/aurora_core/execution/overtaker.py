@@ -62,6 +62,8 @@ class Overtaker:
 
     def step(self, seen: Observation) -> list[GroundCommand]:
         """Return the commands of a tick."""
+        if not self._passing:
+            return []
         return [c for one in self._passing if not one.done for c in self._step(one, seen)]
 
     def _step(self, one: _Passing, seen: Observation) -> list[GroundCommand]:

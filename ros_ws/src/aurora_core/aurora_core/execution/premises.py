@@ -73,7 +73,7 @@ class Premises:
         self, tick: int, dt_s: float, seen: Observation, machines: Sequence[MissionMachine]
     ) -> list[GroundCommand]:
         """Return the commands of a tick."""
-        commands = self._let_up(tick, dt_s, seen)
+        commands = self._let_up(tick, dt_s, seen) if self._fast else []
         if not self._events:
             return commands
         watched = all(m.first_capture_tick is not None for m in machines if not m.waits_on_ground)

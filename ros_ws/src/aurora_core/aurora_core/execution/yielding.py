@@ -40,6 +40,8 @@ class Yielding:
 
     def passed(self, seen: Observation) -> list[int]:
         """Return whose others have all passed by now; each is said once."""
+        if not self._ways and not self._waiting:
+            return []
         for (row, other), way in self._ways.items():
             index = self._roster.agent_index(other)
             if not way.crossed and index is not None and seen.motion(other) is not None:

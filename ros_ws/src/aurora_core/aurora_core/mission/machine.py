@@ -35,6 +35,10 @@ _X, _Y, _Z = int(UavColumn.X), int(UavColumn.Y), int(UavColumn.Z)
 _VX, _VY, _VZ = int(UavColumn.VX), int(UavColumn.VY), int(UavColumn.VZ)
 _ARMED, _LANDED = int(UavColumn.ARMED), int(UavColumn.LANDED)
 
+_MODE_IDLE, _MODE_TAKEOFF = float(UavMode.IDLE), float(UavMode.TAKEOFF)
+_MODE_OFFBOARD, _MODE_LAND = float(UavMode.OFFBOARD), float(UavMode.LAND)
+_NAVIGATE, _TRACK = MissionMode.NAVIGATE, MissionMode.TRACK
+
 # The UAV counts as arrived when it is this close to the last point of a way (m).
 ARRIVED_M = 1.0
 
@@ -118,7 +122,7 @@ class MissionMachine:
         mission = self._flown if self.needs_landing_spot() else self.mission
         if self.phase == _ASCENT:  # the first sample at its altitude may be the capture as well
             mission = self.plan.missions[self._index]
-        tracks = mission is not None and mission.mode is MissionMode.TRACK
+        tracks = mission is not None and mission.mode is _TRACK
         return mission.target if mission is not None and tracks else None
 
     @property
@@ -151,7 +155,7 @@ class MissionMachine:
     def patrols(self) -> bool:
         """Whether it is on a route that an event is to end."""
         mission = self.mission
-        if mission is None or mission.mode is not MissionMode.NAVIGATE:
+        if mission is None or mission.mode is not _NAVIGATE:
             return False
         return mission.until_event
 
@@ -323,7 +327,7 @@ class MissionMachine:
         self, mission: MissionPlan, tick: int, state: list[float], target: TargetMotion | None
     ) -> None:
         self._flown = mission
-        if mission.mode is MissionMode.NAVIGATE:
+        if mission.mode is _NAVIGATE:
             finished = self._fly_route(mission, tick, state)
         else:
             finished = self._fly_hold(mission, tick, state, target)
@@ -380,7 +384,7 @@ class MissionMachine:
         x, y, z = state[_X : _Z + 1]
         if abs(z - self._altitude_m(mission)) > mission.capture_altitude_m:
             return False
-        if mission.mode is MissionMode.TRACK:
+        if mission.mode is _TRACK:
             if target is None:
                 return False
             away = norm2(x - target.x_m, y - target.y_m)
@@ -484,12 +488,12 @@ class MissionMachine:
         yaw, phase = self.plan.home_yaw_enu_rad, float(self.phase)
         if self.phase == _IDLE or self.landed:
             here = state[_X : _Z + 1]
-            return np.array([float(UavMode.IDLE), *here, 0.0, 0.0, 0.0, yaw, 0.0, phase])
+            return np.array([_MODE_IDLE, *here, 0.0, 0.0, 0.0, yaw, 0.0, phase])
         plan = self.plan
         if self.phase == _ASCENT:
             z = self._first_altitude_m()
             home = (plan.home_x_m, plan.home_y_m)
-            return np.array([float(UavMode.TAKEOFF), *home, z, 0.0, 0.0, 0.0, yaw, z, phase])
-        mode = float(UavMode.LAND if self._descending else UavMode.OFFBOARD)
+            return np.array([_MODE_TAKEOFF, *home, z, 0.0, 0.0, 0.0, yaw, z, phase])
+        mode = _MODE_LAND if self._descending else _MODE_OFFBOARD
         r = self._pursuit
         return np.array([mode, r.x, r.y, r.z, r.vx, r.vy, r.vz, yaw, 0.0, phase])

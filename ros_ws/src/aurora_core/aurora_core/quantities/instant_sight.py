@@ -29,6 +29,8 @@ from aurora_core.trace.roster import Roster, RosterEntry
 FloatArray = npt.NDArray[np.float64]
 Point3 = tuple[float, float, float]
 
+# Plain: members of an enum cost more to look up than what is done with them.
+_PLACE = slice(0, int(GroundColumn.Y) + 1)
 # Heights this close to the roof of a vehicle are left to the kernel.
 _SLACK_M = 1e-3
 
@@ -116,7 +118,7 @@ class InstantSight:
         far = self._farthest_m
         west, east = min(p[0], q[0]) - far, max(p[0], q[0]) + far
         south, north = min(p[1], q[1]) - far, max(p[1], q[1]) + far
-        places: list[list[float]] = ground[:, : GroundColumn.Y + 1].tolist()
+        places: list[list[float]] = ground[:, _PLACE].tolist()
         for row, entry, reach in self._vehicles:
             x, y = places[row]
             if x < west or x > east or y < south or y > north or row in ends:
