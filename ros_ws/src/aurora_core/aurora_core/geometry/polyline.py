@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -109,6 +110,15 @@ class Polyline:
         tangents = self._tangents[k]
         rest = (s - self.cumulative_m[k])[:, None]
         return np.concatenate((self.points[k] + rest * tangents, tangents), axis=1)
+
+    def tangents_at(self, s_m: Sequence[float]) -> list[tuple[float, float]]:
+        """Return the unit tangents at ascending arc lengths, those of `at`."""
+        found, last, k = [], len(self._step) - 1, 0
+        for s in s_m:
+            k = bisect_right(self._s, min(max(s, 0.0), self.length_m), lo=k) - 1
+            k = min(k, last)
+            found.append((self._tx[k], self._ty[k]))
+        return found
 
     def project(
         self,

@@ -151,11 +151,16 @@ class Site:
 
     def turns(self, way_m: float, settings: GroundingSettings) -> int:
         """Count the turns on the first `way_m` of the origin's way."""
-        samples = samples_along(self.origin_path, self.origin_arc_m, way_m, settings.turn_sample_m)
-        cosine = (samples[1:, 2:] * samples[:-1, 2:]).sum(axis=1)
-        turning = cosine < settings.turn_cosine
-        # A turn may spread over two samples: count where turning begins.
-        return int(turning[0]) + int((turning[1:] & ~turning[:-1]).sum())
+        path = self.origin_path
+        arcs_m = _arcs_along(path, self.origin_arc_m, way_m, settings.turn_sample_m)
+        headings = path.headings_at(arcs_m.tolist())
+        count, turns = 0, False
+        for before, after in itertools.pairwise(headings):
+            # A turn may spread over two samples: count where turning begins.
+            turned = turns
+            turns = after[0] * before[0] + after[1] * before[1] < settings.turn_cosine
+            count += turns and not turned
+        return count
 
 
 def tied_way_m(spec: ScenarioSpec, settings: GroundingSettings) -> float:
@@ -469,10 +474,17 @@ def samples_along(
     path: RoutePath | WalkPath, start_m: float, way_m: float, spacing_m: float
 ) -> FloatArray:
     """Return points (K, 4) x, y and unit heading along a path, from `start_m` on."""
+    return path.positions_at(_arcs_along(path, start_m, way_m, spacing_m))
+
+
+def _arcs_along(
+    path: RoutePath | WalkPath, start_m: float, way_m: float, spacing_m: float
+) -> FloatArray:
     end_m = min(path.length_m, start_m + way_m)
     count = max(2, int((end_m - start_m) / spacing_m) + 1)
     step = (end_m - start_m) / (count - 1)
-    return path.positions_at(np.minimum(end_m, start_m + np.arange(count) * step))
+    arcs_m: FloatArray = np.minimum(end_m, start_m + np.arange(count) * step)
+    return arcs_m
 
 
 def line_from(path: RoutePath | WalkPath, arc_m: float) -> tuple[tuple[float, float], ...]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import bisect
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -97,6 +97,16 @@ class RoutePath:
         for arc_m in (arcs_m.min(), arcs_m.max()):
             self._check(float(arc_m))
         return self.line.at_each(arcs_m)
+
+    def headings_at(self, arcs_m: Sequence[float]) -> list[tuple[float, float]]:
+        """Return the unit headings at ascending arc lengths, one or more.
+
+        Raises:
+            MapError: When one of them is not on the path.
+        """
+        for arc_m in (arcs_m[0], arcs_m[-1]):
+            self._check(arc_m)
+        return self.line.tangents_at(arcs_m)
 
     def lane_position_at(self, arc_m: float) -> tuple[str, float]:
         """Return lane id and simulator position (m) on that lane at an arc length.

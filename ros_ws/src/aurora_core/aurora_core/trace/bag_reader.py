@@ -230,7 +230,7 @@ class FileReading:
                 f'({err})'
             )
             return None
-        return StoredMessage(topic=topic, cdr=record.data, value=value)
+        return StoredMessage(topic, record.data, value)
 
     def _note(self, record: Metadata) -> None:
         if record.name == RECOVERY:

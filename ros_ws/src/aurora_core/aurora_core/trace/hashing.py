@@ -14,6 +14,7 @@ from __future__ import annotations
 import hashlib
 import struct
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -55,13 +56,10 @@ class _Encoder:
         self._flush()
         self._digests.append(self._digests[0].copy())
 
-    def only_first(self, value: object) -> None:
-        """Add a value that the second digest does not take."""
+    def only_first(self, encoded: bytes) -> None:
+        """Add an encoded value that the second digest does not take."""
         self._flush()
-        digests, self._digests = self._digests, self._digests[:1]
-        self.add(value)
-        self._flush()
-        self._digests = digests
+        self._digests[0].update(encoded)
 
     def _flush(self) -> None:
         for digest in self._digests:
@@ -69,40 +67,62 @@ class _Encoder:
         self._buffer.clear()
 
     def add(self, value: object) -> None:
-        buffer = self._buffer
-        if isinstance(value, np.ndarray):
-            array = np.ascontiguousarray(value, dtype='<f8')
-            buffer += b'a' + array.size.to_bytes(8, 'little')
-            buffer += array.tobytes()
-            if len(buffer) > _PIECE_BYTES:
-                self._flush()
-        elif isinstance(value, str):
-            data = value.encode('utf-8')
-            buffer += b's' + len(data).to_bytes(8, 'little') + data
-        elif isinstance(value, float):
-            buffer += _FLOAT_HEAD + _DOUBLE.pack(value)
-        elif isinstance(value, tuple | list):
-            if not value:
-                buffer += _EMPTY_TUPLE
-                return
-            buffer += b't' + len(value).to_bytes(8, 'little')
-            for item in value:
-                self.add(item)
-        elif isinstance(value, bool | int | np.integer | np.bool_):
-            buffer += _INT_HEAD + int(value).to_bytes(8, 'little', signed=True)
-        else:
-            raise TypeError(f'cannot encode {type(value).__name__}')
+        _encode(value, self._buffer)
+        if len(self._buffer) > _PIECE_BYTES:
+            self._flush()
 
     def hexdigests(self) -> tuple[str, ...]:
         self._flush()
         return tuple(digest.hexdigest() for digest in self._digests)
 
 
+def _encode(value: object, buffer: bytearray) -> None:
+    if isinstance(value, np.ndarray):
+        array = np.ascontiguousarray(value, dtype='<f8')
+        buffer += b'a' + array.size.to_bytes(8, 'little')
+        buffer += array.tobytes()
+    elif isinstance(value, str):
+        data = value.encode('utf-8')
+        buffer += b's' + len(data).to_bytes(8, 'little') + data
+    elif isinstance(value, float):
+        buffer += _FLOAT_HEAD + _DOUBLE.pack(value)
+    elif isinstance(value, tuple | list):
+        if not value:
+            buffer += _EMPTY_TUPLE
+            return
+        buffer += b't' + len(value).to_bytes(8, 'little')
+        for item in value:
+            _encode(item, buffer)
+    elif isinstance(value, bool | int | np.integer | np.bool_):
+        buffer += _INT_HEAD + int(value).to_bytes(8, 'little', signed=True)
+    else:
+        raise TypeError(f'cannot encode {type(value).__name__}')
+
+
+class _Same:
+    """A world that is equal to itself alone: comparing two takes longer than encoding one."""
+
+    def __init__(self, world: WorldModel) -> None:
+        self.world = world
+
+    def __hash__(self) -> int:
+        return id(self.world)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and other.world is self.world
+
+
+@lru_cache(maxsize=1)
+def _encoded_world(same: _Same) -> bytes:
+    """Return the encoding of a world, which its digest and the trace hash both need."""
+    buffer = bytearray()
+    _encode(_world_values(same.world), buffer)
+    return bytes(buffer)
+
+
 def world_sha256(world: WorldModel) -> str:
     """Return the digest (hex) of a world."""
-    encoder = _Encoder()
-    encoder.add(_world_values(world))
-    return encoder.hexdigests()[0]
+    return hashlib.sha256(_encoded_world(_Same(world))).hexdigest()
 
 
 def trace_sha256(trace: Trace, world: WorldModel) -> str:
@@ -115,7 +135,7 @@ def trace_hashes(trace: Trace, world: WorldModel) -> TraceHashes:
     encoder = _Encoder()
     encoder.add(_roster_values(trace.roster))
     encoder.fork()
-    encoder.only_first(_world_values(world))
+    encoder.only_first(_encoded_world(_Same(world)))
     links: dict[int, list[object]] = {}
     sights: dict[int, list[object]] = {}
     events: dict[int, list[object]] = {}

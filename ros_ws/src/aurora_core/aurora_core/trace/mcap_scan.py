@@ -43,6 +43,8 @@ CHUNK_LIMIT = 64 << 20
 
 _HEAD = struct.Struct('<BQ')
 _MESSAGE = struct.Struct('<HIQQ')
+# Plain number: before Python 3.12 a member is slow to look up, and each message asks.
+_MESSAGE_OPCODE = int(Opcode.MESSAGE)
 _CHUNK = struct.Struct('<QQQII')
 _ZSTD = b'\x04\x00\x00\x00zstd'
 _ZSTD_AT = _HEAD.size + _CHUNK.size - 4  # offset of that mark in a chunk record
@@ -245,20 +247,15 @@ class _Scan:
             content = at + _HEAD.size
             if content + length > len(records):
                 raise ValueError('a record reaches beyond its chunk')
-            if opcode == Opcode.MESSAGE:
+            if opcode == _MESSAGE_OPCODE:
                 if length < _MESSAGE.size:
                     raise ValueError('a message without a head')
                 channel, sequence, log_ns, publish_ns = _MESSAGE.unpack_from(records, content)
                 if self._check_index:
                     index.setdefault(channel, []).append((log_ns, at))
                     times.append(log_ns)
-                yield Message(
-                    channel_id=channel,
-                    log_time=log_ns,
-                    data=records[content + _MESSAGE.size : content + length],
-                    publish_time=publish_ns,
-                    sequence=sequence,
-                )
+                data = records[content + _MESSAGE.size : content + length]
+                yield Message(channel, log_ns, data, publish_ns, sequence)
             elif opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
                 record = _parse(opcode, records[content : content + length])
                 if record is not None:

@@ -24,6 +24,7 @@ from aurora_core.trace.messages import TOPICS, MessageBuilder, time_ns
 FloatArray = npt.NDArray[np.float64]
 
 _FRAME = b'map\0'
+_FRAME_ID = _FRAME[:-1].decode()
 _LITTLE_ENDIAN = b'\x00\x01\x00\x00'
 # Encapsulation, stamp, length and text of the frame id, run number, tick.
 _HEAD = struct.Struct('<4siII4sQQ')
@@ -112,6 +113,8 @@ class TickDecoder:
     def __init__(self, definitions: MessageDefinitions) -> None:
         self._definitions = definitions
         self._create = definitions.create
+        # All messages of a tick have one header.
+        self._stamp, self._shared = (-1, -1), None
         self._rows_of = frozenset(TOPICS[topic] for topic in _ROW_TOPICS)
         encoder = TickEncoder(definitions, 1, 0.05)
         for topic in _ROW_TOPICS:
@@ -163,8 +166,11 @@ class TickDecoder:
         )
 
     def _header(self, seconds: int, nanoseconds: int) -> Any:
-        stamp = self._create('builtin_interfaces/msg/Time', sec=seconds, nanosec=nanoseconds)
-        return self._create('std_msgs/msg/Header', stamp=stamp, frame_id=_FRAME[:-1].decode())
+        if self._stamp != (seconds, nanoseconds):
+            stamp = self._create('builtin_interfaces/msg/Time', sec=seconds, nanosec=nanoseconds)
+            header = self._create('std_msgs/msg/Header', stamp=stamp, frame_id=_FRAME_ID)
+            self._stamp, self._shared = (seconds, nanoseconds), header
+        return self._shared
 
 
 def _changed(topic: str) -> BagError:

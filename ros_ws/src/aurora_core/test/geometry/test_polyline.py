@@ -117,3 +117,5 @@ def test_places_together_are_the_places_one_by_one_bit_by_bit(seed: int) -> None
     s = rng.uniform(-5.0, route.length_m + 5.0, size=20)
     s[:3] = 0.0, route.length_m, route.cumulative_m[-2]
     assert route.at_each(s).tolist() == [list(route.at(v)) for v in s.tolist()]
+    ahead = sorted(s.tolist())
+    assert route.tangents_at(ahead) == [route.at(v)[2:] for v in ahead]
