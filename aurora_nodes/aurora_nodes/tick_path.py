@@ -18,10 +18,19 @@ from aurora_core.errors import AuroraError, ParticipantSilentError
 from aurora_core.execution.step_output import StepOutput, Stepper
 from aurora_core.trace.layout import GROUND_WIDTH, UAV_WIDTH
 from aurora_core.trace.messages import MessageBuilder
-from aurora_msgs.msg import Fault, GroundState, SyncStatus, TickDone, UavState
+from aurora_msgs.msg import (
+    Fault,
+    GroundCommand,
+    GroundState,
+    SyncStatus,
+    TickDone,
+    UavCommand,
+    UavState,
+)
 from aurora_nodes.state_join import StateJoin
 from aurora_ros import interfaces as on
-from aurora_ros.conversions.states import uav_command, unpack
+from aurora_ros.conversions.states import Rows, unpack
+from aurora_ros.conversions.time import restamp
 from aurora_ros.errors import read_error, write_error
 from aurora_ros.interfaces import Topic
 from aurora_ros.lifecycle import ManagedNode
@@ -39,6 +48,8 @@ class ActiveRun:
     Attributes:
         last_tick: Last tick that was stepped, -1 before the first.
         sent: Messages published for the bag, by full topic name.
+        flown: The commands to the UAVs.
+        none_driven: Of a tick without commands to ground agents.
         stopping: Set to end the run with the next tick, which is then complete as all others.
         outcome: finished or horizon (of the step that ended the scenario), or cancelled.
         ended: Set when sync has finished or failed the run.
@@ -53,10 +64,17 @@ class ActiveRun:
     on_tick: Callable[[int], None]
     last_tick: int = -1
     sent: Counter[str] = field(default_factory=Counter)
+    flown: Rows[UavCommand] = field(init=False)
+    none_driven: GroundCommand = field(init=False)
     stopping: bool = False
     outcome: str = ''
     ended: threading.Event = field(default_factory=threading.Event)
     error: AuroraError | None = None
+
+    def __post_init__(self) -> None:
+        """Make the messages of most ticks, which are filled anew for each."""
+        self.flown = Rows(UavCommand, self.run_number, self.dt_s)
+        self.none_driven = self.builder.ground_commands(0, ())
 
 
 class TickPath:
@@ -147,9 +165,12 @@ class TickPath:
         if not finished:
             # Before the word that the tick is done, so that no bridge has to wait a second time.
             if run.has_uavs:
-                rows = uav_command(run.run_number, tick + 1, run.dt_s, output.uav_commands)
-                self._send(run, on.UAV_COMMAND, rows)
-            commands = builder.ground_commands(tick + 1, output.ground_commands)
+                self._send(run, on.UAV_COMMAND, run.flown.at(tick + 1, output.uav_commands))
+            if output.ground_commands:
+                commands = builder.ground_commands(tick + 1, output.ground_commands)
+            else:
+                commands = run.none_driven
+                restamp(commands, tick + 1, run.dt_s)
             self._send(run, on.GROUND_COMMAND, commands)
         self._publishers[on.TICK_DONE].publish(
             TickDone(

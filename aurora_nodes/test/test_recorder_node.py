@@ -23,10 +23,10 @@ from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.layout import GROUND_WIDTH
 from aurora_core.trace.records import EventRecord, ScenarioEventKind
 from aurora_core.trace.roster import Roster
-from aurora_msgs.msg import Heartbeat
+from aurora_msgs.msg import GroundState, Heartbeat
 from aurora_ros import interfaces as on
 from aurora_ros.conversions.messages import message_builder
-from aurora_ros.conversions.states import ground_state
+from aurora_ros.conversions.states import Rows
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.forked import ForkedNode
@@ -72,7 +72,7 @@ class Graph:
 
     def send_states(self, ticks: range, run_number: int = RUN) -> None:
         for tick in ticks:
-            self.state.publish(ground_state(run_number, tick, DT_S, ROWS + tick))
+            self.state.publish(Rows(GroundState, run_number, DT_S).at(tick, ROWS + tick))
 
 
 @pytest.fixture

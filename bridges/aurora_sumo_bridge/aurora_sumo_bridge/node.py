@@ -7,13 +7,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from aurora_core.ports.simulators import FloatArray
 from aurora_core.trace.messages import read_ground_commands
-from aurora_msgs.msg import GroundCommand, GroundState
+from aurora_msgs.msg import GroundCommand
 from aurora_msgs.srv import LoadGround
 from aurora_ros import interfaces as on
 from aurora_ros.bridge import BridgeInterfaces, LockstepBridge
 from aurora_ros.conversions.loads import ground_load
-from aurora_ros.conversions.states import ground_state
 from aurora_ros.main import run_node
 from aurora_ros.parameters import declare
 from aurora_sumo_bridge.sumo_client import SumoClient
@@ -46,16 +46,13 @@ class SumoBridgeNode(LockstepBridge):
         """Load map and agents."""
         self._client.load(ground_load(request))
 
-    def state(self, run_number: int, dt_s: float) -> GroundState:
+    def state(self) -> FloatArray:
         """Return the spawned state."""
-        return ground_state(run_number, 0, dt_s, self._client.state())
+        return self._client.state()
 
-    def advance(
-        self, tick: int, command: GroundCommand, run_number: int, dt_s: float
-    ) -> GroundState:
+    def advance(self, tick: int, command: GroundCommand) -> FloatArray:
         """Advance the traffic by one tick."""
-        rows = self._client.advance(tick, read_ground_commands(command))
-        return ground_state(run_number, tick, dt_s, rows)
+        return self._client.advance(tick, read_ground_commands(command))
 
     def cleanup(self) -> None:
         """Free the simulation."""

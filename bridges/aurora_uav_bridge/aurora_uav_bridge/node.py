@@ -7,13 +7,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from aurora_core.errors import AirSimulatorError, ConfigError
+from aurora_core.ports.simulators import FloatArray
 from aurora_core.trace.layout import UAV_COMMAND_WIDTH
-from aurora_msgs.msg import UavCommand, UavState
+from aurora_msgs.msg import UavCommand
 from aurora_msgs.srv import LoadUav
 from aurora_ros import interfaces as on
 from aurora_ros.bridge import BridgeInterfaces, LockstepBridge
 from aurora_ros.conversions.loads import air_load
-from aurora_ros.conversions.states import uav_state, unpack
+from aurora_ros.conversions.states import unpack
 from aurora_ros.main import run_node
 from aurora_ros.parameters import declare, require_positive
 from aurora_uav_bridge.mavlink_client import MavlinkClient
@@ -80,14 +81,13 @@ class UavBridgeNode(LockstepBridge):
         self._client = MavlinkClient(self._transport(), timeout_s=self._settings.answer_limit_s)
         self._client.load(air_load(request))
 
-    def state(self, run_number: int, dt_s: float) -> UavState:
+    def state(self) -> FloatArray:
         """Return the spawned state."""
-        return uav_state(run_number, 0, dt_s, self._loaded.state())
+        return self._loaded.state()
 
-    def advance(self, tick: int, command: UavCommand, run_number: int, dt_s: float) -> UavState:
+    def advance(self, tick: int, command: UavCommand) -> FloatArray:
         """Advance the vehicles by one tick."""
-        rows = self._loaded.advance(tick, unpack(command.data, UAV_COMMAND_WIDTH, 'UAV command'))
-        return uav_state(run_number, tick, dt_s, rows)
+        return self._loaded.advance(tick, unpack(command.data, UAV_COMMAND_WIDTH, 'UAV command'))
 
     def stand_by(self) -> None:
         """Keep the session while the run stands still."""

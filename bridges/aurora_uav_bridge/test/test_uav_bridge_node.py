@@ -25,9 +25,9 @@ from aurora_core.trace.layout import (
     UavMode,
 )
 from aurora_core.trace.messages import read_rows
-from aurora_msgs.msg import SyncStatus, Tick
+from aurora_msgs.msg import SyncStatus, Tick, UavCommand
 from aurora_ros import interfaces as on
-from aurora_ros.conversions.states import uav_command
+from aurora_ros.conversions.states import Rows
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.forked import ForkedNode
@@ -71,7 +71,7 @@ class Graph:
     def step(self, tick: int, row: FloatArray, run_number: int = 1) -> FloatArray:
         count = len(self.states)
         if tick:
-            self.command.publish(uav_command(run_number, tick, DT_S, row[None, :]))
+            self.command.publish(Rows(UavCommand, run_number, DT_S).at(tick, row[None, :]))
         self.tick.publish(Tick(run_number=run_number, tick=tick))
         assert wait_until(lambda: len(self.states) > count, 10.0), self.bridge.log
         rows = read_rows(self.states[count], UAV_WIDTH)
@@ -122,7 +122,7 @@ def test_a_simulator_that_dies_becomes_a_fault_that_names_it(graph: Graph) -> No
     graph.fly(3)
     graph.simulator.kill()
     row = np.zeros((1, UAV_COMMAND_WIDTH))
-    graph.command.publish(uav_command(1, 3, DT_S, row))
+    graph.command.publish(Rows(UavCommand, 1, DT_S).at(3, row))
     graph.tick.publish(Tick(run_number=1, tick=3))
     assert wait_until(lambda: bool(graph.faults), 10.0), graph.bridge.log
     assert graph.faults[0].node == 'uav_bridge'

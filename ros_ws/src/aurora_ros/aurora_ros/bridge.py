@@ -13,8 +13,10 @@ from rclpy.clock_type import ClockType
 from rclpy.subscription import Subscription
 
 from aurora_core.errors import AuroraError
+from aurora_core.ports.simulators import FloatArray
 from aurora_msgs.msg import Fault, SyncStatus, Tick
 from aurora_ros import interfaces as on
+from aurora_ros.conversions.states import Rows
 from aurora_ros.errors import write_error
 from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import Call, Topic
@@ -55,19 +57,19 @@ class LockstepBridge(ManagedNode):
         self._interfaces = interfaces
         self._input: LockstepInput[Any] = LockstepInput(first_needs_input=False)
         self._run_number = 0
-        self._dt_s = 0.0
+        self._rows: Rows[Any]  # once a run is loaded
 
     @abstractmethod
     def open_run(self, request: Any) -> None:
         """Load the simulator; afterwards it stands at tick 0."""
 
     @abstractmethod
-    def state(self, run_number: int, dt_s: float) -> Any:
-        """Return the state message of tick 0."""
+    def state(self) -> FloatArray:
+        """Return the state rows of tick 0."""
 
     @abstractmethod
-    def advance(self, tick: int, command: Any, run_number: int, dt_s: float) -> Any:
-        """Apply the command stamped `tick`, advance to it and return its state message."""
+    def advance(self, tick: int, command: Any) -> FloatArray:
+        """Apply the command stamped `tick`, advance to it and return its state rows."""
 
     def stand_by(self) -> None:
         """Do what keeps the simulator while a run stands still; called twice a second."""
@@ -106,7 +108,8 @@ class LockstepBridge(ManagedNode):
             component=self.get_name(),
         )
         self.open_run(request)
-        self._run_number, self._dt_s = request.run_number, request.dt_s
+        self._run_number = request.run_number
+        self._rows = Rows(self._interfaces.state.type, request.run_number, request.dt_s)
         self._input.arm(request.run_number)
         self.heartbeat.busy(request.run_number)
         response.ok = True
@@ -139,12 +142,9 @@ class LockstepBridge(ManagedNode):
         if ready is None:
             return
         tick, command = ready
-        run_number, dt_s = self._run_number, self._dt_s
         try:
-            if tick == 0:
-                message = self.state(run_number, dt_s)
-            else:
-                message = self.advance(tick, command, run_number, dt_s)
+            rows = self.state() if tick == 0 else self.advance(tick, command)
+            message = self._rows.at(tick, rows)
         except AuroraError as err:
             self._fail(err)
             return

@@ -8,15 +8,17 @@ Reading is `aurora_core.trace.messages.read_rows`, which copies nothing either.
 from __future__ import annotations
 
 from array import array
+from typing import Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from aurora_core.errors import ExecutionError
 from aurora_msgs.msg import GroundState, UavCommand, UavState
-from aurora_ros.conversions.time import header
+from aurora_ros.conversions.time import header, restamp
 
 FloatArray = npt.NDArray[np.float64]
+_Message = TypeVar('_Message', GroundState, UavState, UavCommand)
 
 
 def pack(rows: FloatArray) -> array[float]:
@@ -36,18 +38,23 @@ def unpack(data: array[float], width: int, what: str) -> FloatArray:
     return flat.reshape(-1, width)
 
 
-def ground_state(run_number: int, tick: int, dt_s: float, rows: FloatArray) -> GroundState:
-    """Return the message of all ground agents at a tick; rows (N, GROUND_WIDTH)."""
-    return GroundState(
-        header=header(tick, dt_s), run_number=run_number, tick=tick, data=pack(rows)
-    )
+class Rows(Generic[_Message]):
+    """The message of packed rows of one run, filled anew for each tick.
 
+    Making a message takes as long as sending it does; what was published is gone by then.
 
-def uav_state(run_number: int, tick: int, dt_s: float, rows: FloatArray) -> UavState:
-    """Return the message of all UAVs at a tick; rows (M, UAV_WIDTH)."""
-    return UavState(header=header(tick, dt_s), run_number=run_number, tick=tick, data=pack(rows))
+    Args:
+        kind: GroundState, UavState or UavCommand.
+        run_number: Stamp of the run.
+        dt_s: Time step.
+    """
 
+    def __init__(self, kind: type[_Message], run_number: int, dt_s: float) -> None:
+        self._message = kind(header=header(0, dt_s), run_number=run_number)
+        self._dt_s = dt_s
 
-def uav_command(run_number: int, tick: int, dt_s: float, rows: FloatArray) -> UavCommand:
-    """Return the commands for a tick; rows (M, UAV_COMMAND_WIDTH)."""
-    return UavCommand(header=header(tick, dt_s), run_number=run_number, tick=tick, data=pack(rows))
+    def at(self, tick: int, rows: FloatArray) -> _Message:
+        """Return the message of a tick with rows (N, W); it is the same object each time."""
+        restamp(self._message, tick, self._dt_s)
+        self._message.data = pack(rows)
+        return self._message

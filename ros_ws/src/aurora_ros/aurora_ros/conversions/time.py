@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from builtin_interfaces.msg import Time
 from std_msgs.msg import Header
 
@@ -22,3 +24,10 @@ def stamp(tick: int, dt_s: float) -> Time:
 def header(tick: int, dt_s: float) -> Header:
     """Return the header of a message of a tick, in the map frame."""
     return Header(stamp=stamp(tick, dt_s), frame_id=FRAME_ID)
+
+
+def restamp(message: Any, tick: int, dt_s: float) -> None:
+    """Make a message that has a header and a tick one of another tick."""
+    stamp = message.header.stamp
+    stamp.sec, stamp.nanosec = divmod(time_ns(tick, dt_s), _NANOSECONDS)
+    message.tick = tick

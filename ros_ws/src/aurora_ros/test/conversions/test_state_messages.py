@@ -34,8 +34,9 @@ from aurora_core.trace.records import (
     SightRecord,
 )
 from aurora_core.trace.roster import Roster, RosterEntry
+from aurora_msgs.msg import GroundState, UavCommand, UavState
 from aurora_ros.conversions.messages import message_builder
-from aurora_ros.conversions.states import ground_state, uav_command, uav_state, unpack
+from aurora_ros.conversions.states import Rows, unpack
 
 RUN, DT_S = 12345678901234567890, 0.05
 BUILDER = message_builder(RUN, DT_S)
@@ -49,7 +50,7 @@ def through_the_wire(message: Any) -> Any:
 def test_rows_survive_to_the_last_bit(count: int) -> None:
     rng = np.random.default_rng(7)
     ground = rng.normal(size=(count, GROUND_WIDTH)) * 1e3
-    message = through_the_wire(ground_state(RUN, 3, DT_S, ground))
+    message = through_the_wire(Rows(GroundState, RUN, DT_S).at(3, ground))
     assert read_rows(message, GROUND_WIDTH).tobytes() == ground.tobytes()
     assert unpack(message.data, GROUND_WIDTH, 'x').tobytes() == ground.tobytes()
     assert (message.run_number, message.tick) == (RUN, 3)
@@ -59,14 +60,23 @@ def test_rows_survive_to_the_last_bit(count: int) -> None:
 
 def test_rows_of_a_slice_and_of_another_order_are_packed_row_by_row() -> None:
     rows = np.arange(64.0).reshape(4, 16)
+    states = Rows(UavState, RUN, DT_S)
     for view in (rows[::2], np.asfortranarray(rows), rows[:, ::-1]):
-        message = uav_state(RUN, 1, DT_S, view)
+        message = states.at(1, view)
         assert np.array_equal(unpack(message.data, UAV_WIDTH, 'x'), view)
-    assert uav_command(RUN, 1, DT_S, np.zeros((2, 9))).tick == 1
+    assert Rows(UavCommand, RUN, DT_S).at(1, np.zeros((2, 9))).tick == 1
+
+
+def test_a_message_that_is_filled_anew_is_that_of_its_tick_alone() -> None:
+    states = Rows(GroundState, RUN, DT_S)
+    for tick, count in ((0, 3), (1, 2), (40, 2), (41, 0), (7, 5)):
+        rows = np.full((count, GROUND_WIDTH), float(tick))
+        fresh = Rows(GroundState, RUN, DT_S).at(tick, rows)
+        assert serialize_message(states.at(tick, rows)) == serialize_message(fresh)
 
 
 def test_data_of_a_wrong_length_is_refused() -> None:
-    message = ground_state(RUN, 1, DT_S, np.zeros((1, GROUND_WIDTH + 1)))
+    message = Rows(GroundState, RUN, DT_S).at(1, np.zeros((1, GROUND_WIDTH + 1)))
     with pytest.raises(ExecutionError, match='ground state: expected rows of 7, found 8'):
         unpack(message.data, GROUND_WIDTH, 'ground state')
 
