@@ -8,14 +8,7 @@ import gc
 from contextlib import suppress
 from importlib import import_module
 
-# Node name and the module that holds its `main`.
-MODULES = {
-    'uav_sim': 'aurora_uav_sim.udp_main',
-    **{name: f'aurora_{name}.node' for name in ('sync', 'sumo_bridge', 'uav_bridge')},
-    **{name: f'aurora_nodes.{name}' for name in ('recorder', 'monitor', 'executor')},
-    **{name: f'aurora_nodes.{name}' for name in ('grounding', 'parser', 'repair')},
-    'orchestrator': 'aurora_nodes.orchestrator',
-}
+from aurora_nodes.modules import MODULES
 
 # Names and no imports: nodes are not below each other. What is missing fails in its own node.
 for _module in MODULES.values():

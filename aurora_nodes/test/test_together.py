@@ -72,3 +72,19 @@ def test_each_node_has_its_group_its_core_its_files_and_its_end(tmp_path: Path) 
             assert wait_until(partial(_has_ended, pid), LIMIT_S), name
             assert not (tmp_path / f'{name}.ready').exists()
             assert 'Traceback' not in (tmp_path / f'{name}.log').read_text()
+
+
+@pytest.mark.ros
+def test_a_node_does_not_wait_for_what_others_import(tmp_path: Path) -> None:
+    with own_domain() as domain:
+        done = together(tmp_path, domain, 'sumo_bridge -\nsync -\n')
+        assert done.returncode == 0, done.stderr
+        pids = [
+            int((tmp_path / f'{n}.pid').read_text().split()[0]) for n in ('sync', 'sumo_bridge')
+        ]
+        try:
+            maps = [Path(f'/proc/{pid}/maps').read_text() for pid in pids]
+            assert ['libsumo' in text for text in maps] == [False, True]
+        finally:
+            for pid in pids:
+                os.killpg(pid, signal.SIGKILL)

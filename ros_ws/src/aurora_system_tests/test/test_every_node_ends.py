@@ -13,7 +13,7 @@ import pytest
 
 pytest.importorskip('rclpy')
 
-from aurora_nodes.imported import MODULES
+from aurora_nodes.modules import MODULES
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.processes import NodeProcess
 from aurora_system_tests.graph import ROS_NODES

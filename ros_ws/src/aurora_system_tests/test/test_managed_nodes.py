@@ -15,7 +15,7 @@ from lifecycle_msgs.msg import State, Transition
 from lifecycle_msgs.srv import ChangeState, GetState
 
 from aurora_core.errors import ExecutionError
-from aurora_nodes.imported import MODULES
+from aurora_nodes.modules import MODULES
 from aurora_ros import interfaces as on
 from aurora_ros.interfaces import Call
 from aurora_ros.matching import wait_until

@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip('rclpy')
 
 from aurora_core.errors import AuroraError
-from aurora_nodes.imported import MODULES
+from aurora_nodes.modules import MODULES
 from aurora_ros import interfaces as on
 from aurora_ros.testing.forked import ForkedNode
 from aurora_system_tests.graph import RunningGraph, running_graph
