@@ -7,7 +7,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 # In the JSON schema: the field is left out of a document when it has its default.
 OMITTED = 'x-omitted-when-default'
@@ -48,6 +48,16 @@ def _first_difference(
                 return found
         return None
     return None if one == other else ('/'.join(path), one, other)
+
+
+def first_problem(err: Exception) -> str:
+    """Return in one line what is wrong with a document: of a schema's findings the first one."""
+    if not isinstance(err, ValidationError):
+        return str(err)
+    first, *others = err.errors(include_url=False, include_input=False)
+    where = '.'.join(str(part) for part in first['loc'])
+    what = f'{where}: {first["msg"]}' if where else str(first['msg'])
+    return f'{what}, and {len(others)} more' if others else what
 
 
 def omitted(default: object) -> Any:

@@ -15,6 +15,7 @@ from pathlib import Path
 from aurora_core.errors import MapError
 
 _LIMIT_S = 300.0
+_END = b'</net>'
 _TYPEMAP_FOLDERS = ('data/typemap', 'share/sumo/data/typemap')
 _HINT = 'install the package eclipse-sumo of the version in requirements/ (`make setup` does)'
 
@@ -34,7 +35,8 @@ def run_netconvert(
         `out`.
 
     Raises:
-        MapError: netconvert is missing, fails, takes longer than five minutes, or finds no road.
+        MapError: netconvert is missing, fails, takes longer than five minutes, finds no road, or
+            has no room for the network.
     """
     command = [_program(), *options, '--output-file', str(out)]
     if typemaps:
@@ -67,7 +69,18 @@ def run_netconvert(
             f'{given} gives no road network: {_first_error(log, given)}',
             hint='import a file that has streets for cars',
         )
+    if not _is_whole(out):  # it does not notice that a disk is full
+        raise MapError(
+            f'{given}: netconvert could not write all of its network',
+            hint='make room, or name another folder with AURORA_MAPS',
+        )
     return out
+
+
+def _is_whole(network: Path) -> bool:
+    with network.open('rb') as stream:
+        stream.seek(max(0, network.stat().st_size - len(_END) - 8))
+        return stream.read().rstrip().endswith(_END)
 
 
 def _first_error(log: Path, given: Path) -> str:

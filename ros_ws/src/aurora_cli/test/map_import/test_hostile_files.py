@@ -152,6 +152,24 @@ def test_a_full_disk_leaves_nothing(
     assert list(own.iterdir()) == []
 
 
+def test_a_network_that_netconvert_breaks_off_is_not_taken(
+    own: Path, files: SimpleNamespace, call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """On a full disk it writes as far as it gets and says that all went well."""
+    program = tmp_path / 'netconvert'
+    program.write_text(
+        '#!/bin/sh\nwhile [ "$1" != --output-file ]; do shift; done\nprintf "<net><ed" > "$2"\n'
+    )
+    program.chmod(0o755)
+    monkeypatch.setattr('sysconfig.get_path', lambda _name: str(tmp_path))
+    for file in (files.xodr, files.osm):
+        done = call('map', 'import', str(file))
+        assert done.code == 4
+        assert 'could not write all of its network' in done.err
+        assert 'make room' in done.err
+    assert list(own.iterdir()) == []
+
+
 def test_ctrl_c_leaves_nothing(
     own: Path, files: SimpleNamespace, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import hashlib
 import io
+import tokenize
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -23,6 +25,11 @@ Arrays = Mapping[str, npt.NDArray[Any]]
 _DATE = (1980, 1, 1, 0, 0, 0)
 # What the arrays of a map have at most, unpacked.
 _UNPACKED_BYTES = 256 << 20
+# What zip archives and headers of arrays raise where a byte of them is another one.
+_DAMAGE = (
+    OSError, ValueError, EOFError, RuntimeError, OverflowError, MemoryError,
+    zipfile.BadZipFile, zlib.error, tokenize.TokenError,
+)  # fmt: skip
 
 
 def arrays_bytes(arrays: Arrays) -> bytes:
@@ -61,7 +68,7 @@ def read_arrays(path: Path) -> dict[str, npt.NDArray[Any]]:
                 )
                 for member in archive.infolist()
             }
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as err:
+    except _DAMAGE as err:
         raise MapError(f'expected arrays in {path}, but: {err}') from err
 
 

@@ -14,7 +14,7 @@ from typing import Self
 
 from pydantic import JsonValue, ValidationError
 
-from aurora_core.document import Document
+from aurora_core.document import Document, first_problem
 from aurora_core.errors import ConfigError
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.settings import Settings
@@ -66,11 +66,8 @@ class Basis(Document):
                 settings=Settings.model_validate(self.settings),
             )
         except ValidationError as err:
-            first = err.errors()[0]
-            where = '.'.join(str(part) for part in first['loc'])
             raise ConfigError(
-                f'the recorded configuration cannot be read by this version: {where}: '
-                f'{first["msg"]}',
+                f'the recorded configuration cannot be read by this version: {first_problem(err)}',
                 hint='judge it with the version that recorded it',
             ) from err
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from aurora_core.document import first_problem
 from aurora_core.errors import MapError
 from aurora_core.files import MANIFEST_BYTES, MAP_BYTES, read_bytes
 
@@ -77,7 +78,9 @@ def read_manifest(folder: Path) -> MapManifest:
     try:
         manifest = MapManifest.model_validate_json(read_bytes(path, MANIFEST_BYTES))
     except (OSError, ValidationError) as err:
-        raise MapError(f'expected a map manifest in {path}, but: {err}', hint=_BUILD_HINT) from err
+        raise MapError(
+            f'expected a map manifest in {path}, but: {first_problem(err)}', hint=_BUILD_HINT
+        ) from err
     for expected in manifest.files:
         file = folder / expected.name
         if not file.is_file():

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import ValidationError
 
-from aurora_core.document import Document
+from aurora_core.document import Document, first_problem
 from aurora_core.errors import MapError
 from aurora_core.files import MAP_BYTES, read_json
 from aurora_core.knowledge.array_file import Arrays, arrays_bytes, arrays_digest, read_arrays
@@ -233,9 +233,7 @@ def load_measured_map(model: MapModel, dt_s: float, clearance_m: float) -> Measu
     try:
         records = MapRecords.model_validate(read_json(path, MAP_BYTES))
     except ValidationError as err:
-        first = err.errors()[0]
-        where = '.'.join(str(part) for part in first['loc'])
-        raise MapError(f'{path} is not valid: {where}: {first["msg"]}', hint=again) from err
+        raise MapError(f'{path} is not valid: {first_problem(err)}', hint=again) from err
     except (OSError, ValueError) as err:
         raise MapError(f'{path} cannot be read: {err}', hint=again) from err
     check_made_of(path, records.made_of, map_basis(model, dt_s, clearance_m), model.name)

@@ -8,7 +8,7 @@ from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from aurora_core.document import omitted
+from aurora_core.document import first_problem, omitted
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path
@@ -151,5 +151,5 @@ def load_settings() -> Settings:
         raise ConfigError(f'{path} cannot be read: {err}', hint='run make setup') from err
     except ValueError as err:  # not UTF-8, not JSON, or out of the schema
         raise ConfigError(
-            f'{path} is not valid: {err}', hint='compare with the shipped file'
+            f'{path} is not valid: {first_problem(err)}', hint='compare with the shipped file'
         ) from err

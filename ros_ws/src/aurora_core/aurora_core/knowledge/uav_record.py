@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from pydantic import ValidationError
 
-from aurora_core.document import Document
+from aurora_core.document import Document, first_problem
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path, config_root
@@ -143,9 +143,7 @@ def load_uav_record() -> UavRecord:
     except OSError as err:
         raise ConfigError(f'{path} cannot be read: {err}', hint=hint) from err
     except ValidationError as err:
-        first = err.errors()[0]
-        where = '.'.join(str(part) for part in first['loc'])
-        raise ConfigError(f'{path} is not valid: {where}: {first["msg"]}', hint=hint) from err
+        raise ConfigError(f'{path} is not valid: {first_problem(err)}', hint=hint) from err
     except (ValueError, LookupError, TypeError) as err:
         raise ConfigError(f'{path} is not valid: {err!r}', hint=hint) from err
     limits = load_limits(config_path('limits.json'))

@@ -10,7 +10,7 @@ from typing import Annotated
 import yaml
 from pydantic import Field, NonNegativeFloat, NonNegativeInt, PositiveFloat, PositiveInt
 
-from aurora_core.document import Document
+from aurora_core.document import Document, first_problem
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_text
 from aurora_core.knowledge.config_files import config_path
@@ -85,5 +85,5 @@ def load_repair_settings() -> RepairSettings:
         raise ConfigError(f'{path} cannot be read: {err}', hint='run make setup') from err
     except (ValueError, yaml.YAMLError) as err:
         raise ConfigError(
-            f'{path} is not valid: {err}', hint='compare with the shipped file'
+            f'{path} is not valid: {first_problem(err)}', hint='compare with the shipped file'
         ) from err

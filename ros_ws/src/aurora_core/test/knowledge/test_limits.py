@@ -64,6 +64,7 @@ def test_a_bad_limit_is_named(tmp_path: Path, field: str, value: Any, named: str
         load_limits(path)
     assert named in caught.value.message
     assert str(path) in caught.value.message
+    assert '\n' not in caught.value.message
     assert caught.value.hint
 
 

@@ -81,6 +81,17 @@ def test_manifest_out_of_its_schema_is_refused(tmp_path: Path, change: dict[str,
     with pytest.raises(MapError, match='expected a map manifest') as caught:
         read_manifest(folder)
     assert next(iter(change)) in caught.value.message
+    assert '\n' not in caught.value.message
+
+
+@pytest.mark.parametrize('data', [b'', b'[]', b'{"schema_version": 1, "na', b'\xff'])
+def test_a_manifest_that_is_none_is_told_in_one_line(tmp_path: Path, data: bytes) -> None:
+    folder = _folder(tmp_path)
+    (folder / MANIFEST_NAME).write_bytes(data)
+    with pytest.raises(MapError, match='expected a map manifest') as caught:
+        read_manifest(folder)
+    assert '\n' not in caught.value.message
+    assert 'pydantic' not in caught.value.message
 
 
 def test_file_outside_the_folder_cannot_be_listed(tmp_path: Path) -> None:
