@@ -6,10 +6,13 @@ from __future__ import annotations
 
 import gzip
 import os
+import re
 import struct
 import zlib
 from collections.abc import Callable
 from pathlib import Path
+
+from aurora_core.knowledge.config_files import config_path
 
 Make = Callable[[Path], None]
 
@@ -21,6 +24,7 @@ _ROAD = (
 _NODES = '<node id="1" lat="60" lon="24"/><node id="2" lat="{}" lon="24"/>'
 _LAUGHS = ''.join(f'<!ENTITY e{k} "{f"&e{k - 1};" * 10}">' for k in range(1, 10))
 _MILLION = 1_000_000
+_CORNERS = 100_000
 
 
 def osm(*parts: str) -> bytes:
@@ -74,6 +78,37 @@ def _pbf_bomb(path: Path) -> None:
     """A header, then a block that unpacks to a gibibyte and says so."""
     head = pbf_blob(b'OSMHeader', b'"\x0eOsmSchema-V0.6', 16)
     path.write_bytes(head + pbf_blob(b'OSMData', bytes(1 << 28), 1 << 30))
+
+
+def _scribble(path: Path) -> None:
+    """A building of a hundred thousand corners, each in another part of the town."""
+    nodes = ''.join(
+        f'<node id="{k + 10}" lat="60.00{k * 37 % 101:03d}" lon="24.00{k * 53 % 97:03d}"/>'
+        for k in range(_CORNERS)
+    )
+    ring = ''.join(f'<nd ref="{k + 10}"/>' for k in (*range(_CORNERS), 0))
+    building = f'<way id="99">{ring}<tag k="building" v="yes"/></way>'
+    path.write_bytes(osm(_NODES.format(60.001), nodes, _ROAD.format('A'), building))
+
+
+def _road(length_m: str, lanes: int) -> Make:
+    """One curved road of OpenDRIVE."""
+    right = ''.join(
+        f'<lane id="-{k}" type="driving"><width sOffset="0" a="3" b="0" c="0" d="0"/></lane>'
+        for k in range(1, lanes + 1)
+    )
+    return _bytes(
+        f'<OpenDRIVE><road name="r" length="{length_m}" id="1" junction="-1"><planView><geometry '
+        f's="0" x="0" y="0" hdg="0" length="{length_m}"><arc curvature="1e-9"/></geometry>'
+        '</planView><lanes><laneSection s="0"><center><lane id="0" type="none"/></center>'
+        f'<right>{right}</right></laneSection></lanes></road></OpenDRIVE>'.encode()
+    )
+
+
+def _signals_without_time(path: Path) -> None:
+    """A network whose signals change in no time."""
+    packed = config_path('maps', 'junction', 'net.xml.gz').read_bytes()
+    path.write_bytes(re.sub(rb'duration="[0-9]+"', b'duration="0"', gzip.decompress(packed)))
 
 
 def _pipe(path: Path) -> None:
@@ -136,6 +171,21 @@ CLASSES: dict[str, tuple[str, Make]] = {
     'no road': ('points.osm', _bytes(osm(_NODES.format(60.001)))),
     'half the world': ('world.osm', _bytes(osm(_NODES.format(1), _ROAD.format('A')))),
     'driving on the left': ('left.net.xml', _bytes(b'<net version="1.20" lefthand="true"></net>')),
+    'encoding that nobody has': (
+        'encoding.osm', _bytes(b'<?xml version="1.0" encoding="x-none"?><osm/>')
+    ),
+    'identifier without end': (
+        'long.osm', _bytes(osm('<node id="', 'x' * 100_000, '" lat="60" lon="24"/>'))
+    ),
+    'a million lanes': (
+        'lanes.osm',
+        _bytes(osm(_NODES.format(60.001), _ROAD.format('A').replace(
+            '</way>', '<tag k="lanes" v="1000000"/></way>'))),
+    ),
+    'outline that crosses itself without end': ('scribble.osm', _scribble),
+    'road without end': ('endless.xodr', _road('1e12', 1)),
+    'road of thousands of lanes': ('wide.xodr', _road('200', 5000)),
+    'signals that change in no time': ('frozen.net.xml', _signals_without_time),
     'pipe': ('pipe.osm', _pipe),
     'link to a device': ('device.osm', _link_to_device),
     'link to nowhere': ('nowhere2.osm', _link_to_nowhere),

@@ -198,5 +198,6 @@ def _stderr_to(stream: IO[bytes]) -> Iterator[None]:
 def _tail(noise: IO[bytes]) -> str:
     noise.seek(0)
     lines = noise.read().decode('utf-8', errors='replace').split('\n')
-    said = [line.strip() for line in lines if line.strip()][:ERROR_LINES_KEPT]
+    once = dict.fromkeys(line.strip() for line in lines if line.strip())
+    said = list(once)[:ERROR_LINES_KEPT]
     return f'; SUMO says: {" | ".join(said)}' if said else ''

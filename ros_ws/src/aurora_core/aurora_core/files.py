@@ -187,7 +187,7 @@ def _check_prolog(data: bytes) -> None:
             parser.Parse(data[start : start + _PIECE_BYTES], False)
     except _FirstElement:
         return
-    except expat.ExpatError as err:
+    except (expat.ExpatError, LookupError) as err:  # the latter: of its encoding
         raise ValueError(str(err)) from err
 
 

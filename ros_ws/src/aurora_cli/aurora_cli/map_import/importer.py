@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import time
 from collections.abc import Callable
@@ -20,13 +21,14 @@ from aurora_cli.map_import.folder import (
     new_folder,
     write_stops,
 )
-from aurora_cli.map_import.networks import BuiltNet, net_of_file, net_of_osm
+from aurora_cli.map_import.networks import MOST_LANES, BuiltNet, net_of_file, net_of_osm
 from aurora_cli.map_import.osm_buildings import buildings
 from aurora_cli.map_import.osm_data import read_osm, write_osm_xml
 from aurora_cli.map_import.osm_places import areas, bus_stops, landmarks
 from aurora_cli.map_import.osm_shapes import OsmShapes
 from aurora_cli.map_import.source import Source, SourceKind, take_in
-from aurora_core.errors import MapError
+from aurora_cli.output import quiet_stdout
+from aurora_core.errors import GroundSimulatorError, MapError
 from aurora_core.files import gzip_reproducibly
 from aurora_core.grounding.spots import compiled_area
 from aurora_core.knowledge.map_files import write_features
@@ -48,11 +50,16 @@ from aurora_core.knowledge.map_model import (
     load_map_folder,
 )
 from aurora_core.knowledge.map_types import Area, Building, BusStop, Landmark
+from aurora_core.knowledge.measured_on import vtypes_path
 from aurora_core.knowledge.reach import Reach
 from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.knowledge.settings import load_settings
+from aurora_sumo_bridge.sumo_process import SumoProcess
 
 ATTRIBUTION_NAME = 'ATTRIBUTION.md'
 _MARGIN_M = 50.0
+# A city centre has 20 km of lanes per square kilometre, measured in half a second each.
+_MOST_LANES_KM = 2000.0
 _SUFFIXES = ('.gz', '.xml', '.net', '.osm', '.pbf', '.xodr')
 _ODBL = 'ODbL-1.0'
 # SPDX: the licence is what the giver of the file says, and only the user knows that.
@@ -139,9 +146,12 @@ def import_map(file: Path, name: str, tell: Callable[[str], None]) -> Imported:
     with new_folder(final) as scratch:
         steps.begin('read')
         source = take_in(file, scratch)
-        built, kind = _build(source, scratch, scratch / 'map', name, steps)
-        steps.begin('load')
-        load_map_folder(scratch / 'map')
+        try:
+            built, kind = _build(source, scratch, scratch / 'map', name, steps)
+            steps.begin('load')
+            _try_out(load_map_folder(scratch / 'map'))
+        except MapError as err:
+            raise _of_the_file(err, file, scratch) from err
     model = load_map_folder(final)
     steps.begin('prepare')
     # On a read-only installation every run makes it anew.
@@ -155,6 +165,28 @@ def import_map(file: Path, name: str, tell: Callable[[str], None]) -> Imported:
         is_placed=built.frame.is_placed,
         is_guessed=built.is_guessed,
     )
+
+
+def _of_the_file(err: MapError, file: Path, scratch: Path) -> MapError:
+    """Return an error about the file that the user knows, not about what was made of it."""
+    if str(file) in err.message:
+        return err
+    made = f'{scratch}{os.sep}'
+    again = 'export it again, or import another file'
+    hint = again if made in err.message else err.hint or again
+    return MapError(f'{file} gives no map: {err.message.replace(made, "")}', hint=hint)
+
+
+def _try_out(model: MapModel) -> None:
+    """Start the simulator on a map: it refuses some networks that netconvert makes."""
+    dt_s = load_settings().run.dt_s
+    try:
+        with quiet_stdout():
+            SumoProcess(
+                net_path=model.net_path, vtypes_path=vtypes_path(), dt_s=dt_s, seed=1
+            ).close()
+    except GroundSimulatorError as err:
+        raise MapError(err.message, hint='correct what SUMO names, and import it again') from err
 
 
 def _build(
@@ -176,6 +208,7 @@ def _build(
             f'{source.given} has no road that cars may use',
             hint='import a file that has streets for cars',
         )
+    _check_size(network)
     extent = _extent(network)
     content = _Content()
     if data is not None:
@@ -209,6 +242,24 @@ def _build(
     )
     write_manifest(folder, manifest)
     return built, source.kind
+
+
+def _check_size(network: RoadNetwork) -> None:
+    """Refuse streets that no city has."""
+    widest = max(network.edges.values(), key=lambda edge: (len(edge.lane_ids), edge.id))
+    if len(widest.lane_ids) > MOST_LANES:
+        raise MapError(
+            f'street {widest.street_name or widest.id} has {len(widest.lane_ids)} lanes in one '
+            'direction',
+            hint=f'correct it: a street has at most {MOST_LANES}',
+        )
+    length_km = sum(lane.arc_length_m for lane in network.lanes.values()) / 1000.0
+    if length_km > _MOST_LANES_KM:
+        raise MapError(
+            f'its lanes are {length_km:.0f} km long, more than the {_MOST_LANES_KM:.0f} km of a '
+            'map',
+            hint='cut out a smaller part',
+        )
 
 
 def _extent(network: RoadNetwork) -> shapely.Polygon:

@@ -21,6 +21,9 @@ from aurora_core.knowledge.road_network import RoadNetwork
 _METRES_PER_DEGREE = 111_000.0
 # The shortest that netconvert makes.
 _LEAST_LANE_M = 0.1
+_LEAST_SPEED_MPS = 0.5
+# The widest motorways have 13 lanes in one direction.
+MOST_LANES = 32
 # Common to all: names stay, heights go, walkers get crossings where streets have walkways.
 _COMMON = ('--output.street-names', '--flatten', '--crossings.guess', '--walkingareas')
 # Options of the SUMO user guide for OpenStreetMap, without rails and footways of their own.
@@ -90,6 +93,7 @@ def net_of_osm(source: Source, data: OsmData, scratch: Path) -> BuiltNet:
             'map',
             hint='cut out a smaller part',
         )
+    _check_lanes(source, data)
     frame = frame_about((south + north) / 2.0, (west + east) / 2.0)
     out = run_netconvert(
         [
@@ -106,6 +110,17 @@ def net_of_osm(source: Source, data: OsmData, scratch: Path) -> BuiltNet:
         frame=frame,
         is_guessed=True,
     )
+
+
+def _check_lanes(source: Source, data: OsmData) -> None:
+    """Refuse streets of more lanes than any has, which netconvert would lay out one by one."""
+    for way in data.ways.values():
+        count = way.tags.get('lanes', '') if 'highway' in way.tags else ''
+        if count.isdecimal() and int(count[:9]) > 2 * MOST_LANES:
+            raise MapError(
+                f'{source.given}: way {way.id} has {count[:9]} lanes',
+                hint=f'correct it: a street has at most {MOST_LANES} in one direction',
+            )
 
 
 def net_of_file(source: Source, scratch: Path) -> BuiltNet:
@@ -138,6 +153,7 @@ def _from_net_on(document: bytes) -> bytes:
 def _document(root: Xml.Element) -> bytes:
     _plain_names(root)
     _measure_lanes(root)
+    _open_lanes(root)
     return Xml.tostring(root, encoding='unicode').encode('utf-8')
 
 
@@ -163,6 +179,14 @@ def _measure_lanes(root: Xml.Element) -> None:
             mean_m = sum(map(_arc_m, driven)) / len(driven)
             for lane in lanes:
                 lane.set('length', f'{max(mean_m, _LEAST_LANE_M):.2f}')
+
+
+def _open_lanes(root: Xml.Element) -> None:
+    """Let traffic move everywhere: a limit that netconvert rounds to 0 would stop it."""
+    for lane in root.iterfind('edge/lane'):
+        speed_mps = float(lane.get('speed', 'inf'))
+        if speed_mps < _LEAST_SPEED_MPS:
+            lane.set('speed', f'{_LEAST_SPEED_MPS:.2f}')
 
 
 def _arc_m(lane: Xml.Element) -> float:

@@ -23,6 +23,7 @@ from aurora_core.errors import MapError
 
 Tags = dict[str, str]
 Degrees = tuple[float, float]  # longitude, latitude
+_MOST_SAID = 200  # a reader may quote what it finds at any length
 _MEMBER_KINDS = {'n': 'node', 'w': 'way', 'r': 'relation'}
 
 
@@ -90,7 +91,8 @@ def read_osm(source: Source) -> OsmData:
                 raise too_many_nodes(source.given)
     except (RuntimeError, ValueError, osmium.InvalidLocationError) as err:
         raise MapError(
-            f'{source.given} is damaged: {err}', hint='download or export it again'
+            f'{source.given} is damaged: {str(err)[:_MOST_SAID]}',
+            hint='download or export it again',
         ) from err
     return data
 

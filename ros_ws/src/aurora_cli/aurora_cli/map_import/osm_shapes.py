@@ -6,15 +6,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import shapely
 
 from aurora_cli.map_import.frame import Frame
 from aurora_cli.map_import.osm_data import OsmData, OsmRelation, Tags
+from aurora_core.errors import MapError
 
 Point = tuple[float, float]
 _NAMES = ('name', 'name:en')
+# Outlines cross themselves by mistake, here and there; to mend them takes longer with each.
+_MOST_CROSSINGS = 1000
+_AT_ONCE = 64
 _TOWNS = ('city', 'town', 'village', 'suburb', 'borough')
 
 
@@ -40,6 +45,7 @@ class OsmShapes:
         ids = list(data.positions)
         degrees = np.array(list(data.positions.values()), dtype=float).reshape(-1, 2)
         x, y = frame.to_map().transform(degrees[:, 0], degrees[:, 1])
+        self._crossings_left = 2 * _MOST_CROSSINGS  # each is found from both sides
         self._points: dict[int, Point] = dict(
             zip(ids, zip(x.tolist(), y.tolist(), strict=True), strict=True)
         )
@@ -66,7 +72,11 @@ class OsmShapes:
                 yield f'n{node}', self._points[node], tags
 
     def areas(self, wanted: Iterable[str]) -> Iterator[OsmArea]:
-        """Return the closed ways and the multipolygons that have one of the tags, by id."""
+        """Return the closed ways and the multipolygons that have one of the tags, by id.
+
+        Raises:
+            MapError: Their outlines cross themselves without end.
+        """
         keys = frozenset(wanted)
         in_relations: set[int] = set()
         for relation in sorted(self._data.relations.values(), key=lambda r: r.id):
@@ -79,7 +89,9 @@ class OsmShapes:
                 yield OsmArea(f'r{relation.id}', shape, tags)
         for way in sorted(self._data.ways.values(), key=lambda w: w.id):
             if way.is_ring and keys & way.tags.keys() and way.id not in in_relations:
-                shape = polygons(shapely.Polygon(self._line(way.nodes)))
+                ring = shapely.LinearRing(self._line(way.nodes))
+                self._count_crossings(ring)
+                shape = polygons(shapely.Polygon(ring))
                 if not shape.is_empty:
                     yield OsmArea(f'w{way.id}', shape, way.tags)
 
@@ -103,8 +115,30 @@ class OsmShapes:
                     lines.append(shapely.LineString(points))
         if not lines:
             return []
+        self._count_crossings(shapely.MultiLineString(lines))
         whole = shapely.polygonize([shapely.union_all(lines)])
         return [polygons(part) for part in shapely.get_parts(whole)]
+
+    def _count_crossings(self, lines: shapely.Geometry) -> None:
+        """Take the crossings of lines with themselves from those that a map may have."""
+        if lines.is_simple:
+            return
+        segments = [
+            shapely.LineString(pair)
+            for line in shapely.get_parts(lines)
+            for pair in pairwise(line.coords)
+            if pair[0] != pair[1]
+        ]
+        tree = shapely.STRtree(segments)
+        for start in range(0, len(segments), _AT_ONCE):
+            found = tree.query(segments[start : start + _AT_ONCE], predicate='crosses')
+            self._crossings_left -= found.shape[1]
+            if self._crossings_left < 0:
+                raise MapError(
+                    'outlines of buildings and areas cross themselves more than '
+                    f'{_MOST_CROSSINGS} times',
+                    hint='export it again, or cut out a smaller part',
+                )
 
 
 def polygons(shape: shapely.Geometry) -> shapely.Geometry:

@@ -223,7 +223,7 @@ def check_xml(path: Path, given: Path) -> SourceKind:
             while piece := stream.read(_PIECE_BYTES):
                 parser.Parse(piece, False)
             parser.Parse(b'', True)
-    except (expat.ExpatError, ValueError) as err:
+    except (expat.ExpatError, ValueError, LookupError) as err:  # the last: of its encoding
         if checker.kind is None:
             raise MapError(f'{given} is neither XML nor PBF ({err})', hint=_KINDS_HINT) from err
         raise MapError(

@@ -7,6 +7,7 @@ from __future__ import annotations
 import errno
 import gzip
 import os
+import re
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -14,8 +15,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from aurora_cli.map_import import importer, source
-from aurora_cli.testing.small_maps import small_city
+from aurora_cli.map_import import importer, netconvert, source
+from aurora_cli.testing.small_maps import small_city, xodr
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.map_model import load_map
 
 Call = Callable[..., SimpleNamespace]
 # Nothing that is refused takes as long on any machine; about 0.1 s is usual.
@@ -38,6 +41,33 @@ def _osm(*roads: str, second: str = 'lat="60.001" lon="24"') -> bytes:
     return f'<osm version="0.6">{nodes}{"".join(roads)}</osm>'.encode()
 
 
+def _scribble(count: int) -> bytes:
+    """A city with a building whose outline crosses itself at almost every step."""
+    spots = [(60.17 + 1e-5 * (k * 37 % 101), 24.94 + 1e-5 * (k * 53 % 97)) for k in range(count)]
+    nodes = ''.join(
+        f'<node id="{1000 + k}" lat="{lat:.6f}" lon="{lon:.6f}"/>'
+        for k, (lat, lon) in enumerate(spots)
+    )
+    ring = ''.join(f'<nd ref="{1000 + k}"/>' for k in (*range(count), 0))
+    building = f'<way id="9999">{ring}<tag k="building" v="yes"/></way>'
+    return CITY.replace('</osm>', f'{nodes}{building}</osm>').encode()
+
+
+def _junction(old: str, new: str) -> bytes:
+    """The network of the bundled junction with something in it changed everywhere."""
+    packed = config_path('maps', 'junction', 'net.xml.gz').read_bytes()
+    text, changed = re.subn(old, new, gzip.decompress(packed).decode())
+    assert changed
+    return text.encode()
+
+
+LANES = ROAD.format('primary').replace('</way>', '<tag k="lanes" v="1000000"/></way>')
+ENDLESS = xodr(walkways=False).replace('<line/>', '<arc curvature="1e-9"/>')
+WIDE = ''.join(
+    f'<lane id="-{k}" type="driving" level="false"><width sOffset="0" a="3" b="0" c="0" d="0"/>'
+    '</lane>' for k in range(2, 40)
+)  # fmt: skip
+
 REFUSED = {
     'empty.osm': (b'', 'is empty'),
     'empty.osm.gz': (gzip.compress(b''), 'neither XML nor PBF'),
@@ -57,6 +87,16 @@ REFUSED = {
     'empty.net.xml': (b'<net version="1.20"></net>', 'gives no road network'),
     'empty.xodr': (b'<OpenDRIVE></OpenDRIVE>', 'gives no road network'),
     'left.net.xml': (b'<net version="1.20" lefthand="true"></net>', 'driving on the left'),
+    'encoding.osm': (b'<?xml version="1.0" encoding="x-none"?><osm/>', 'unknown encoding'),
+    'lanes.osm': (_osm(LANES), 'has 1000000 lanes'),
+    'long.osm': (_osm().replace(b'id="1"', b'id="' + b'x' * 5000 + b'"'), 'illegal id'),
+    'scribble.osm': (_scribble(2000), 'cross themselves more than'),
+    'endless.xodr': (ENDLESS.replace('"300"', '"1e12"').encode(), 'no end of it'),
+    'wide.xodr': (
+        xodr(walkways=False).replace('</right>', f'{WIDE}</right>').encode(),
+        'lanes in one direction',
+    ),
+    'frozen.net.xml': (_junction('duration="[0-9]+"', 'duration="0"'), 'SUMO does not start'),
     'cut.osm.pbf': (b'\0\0\0\x0d\x0a\x09OSMHeader\x18\x7f' + b'x' * 20, 'unexpected EOF'),
 }
 
@@ -168,6 +208,46 @@ def test_a_network_that_netconvert_breaks_off_is_not_taken(
         assert 'could not write all of its network' in done.err
         assert 'make room' in done.err
     assert list(own.iterdir()) == []
+
+
+def test_netconvert_and_what_it_started_are_stopped(
+    own: Path, files: SimpleNamespace, call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """In its wheel it is a script that starts the program: the script alone is not enough."""
+    pid_file = tmp_path / 'pid'
+    program = tmp_path / 'netconvert'
+    program.write_text(f'#!/bin/sh\nsleep 300 &\necho $! > {pid_file}\nwait\n')
+    program.chmod(0o755)
+    monkeypatch.setattr('sysconfig.get_path', lambda _name: str(tmp_path))
+    monkeypatch.setattr(netconvert, '_LIMIT_S', 2.0)
+    done = call('map', 'import', str(files.xodr))
+    assert done.code == 4
+    assert 'netconvert was not done' in done.err
+    started = int(pid_file.read_text())
+    until_s = time.monotonic() + HANGS_S
+    while _runs(started) and time.monotonic() < until_s:
+        time.sleep(0.05)
+    assert not _runs(started)
+
+
+def _runs(pid: int) -> bool:
+    """Whether a process is there and no zombie."""
+    try:
+        return Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()[0] != 'Z'
+    except OSError:
+        return False
+
+
+def test_streets_on_which_nobody_may_move_are_opened(
+    own: Path, tmp_path: Path, call: Call
+) -> None:
+    file = tmp_path / 'slow.net.xml'
+    file.write_bytes(_junction(' speed="[^"]*"', ' speed="0.00001"'))
+    assert call('map', 'import', str(file)).code == 0
+    assert min(lane.speed_limit_mps for lane in load_map('slow').network.lanes.values()) >= 0.5
+    checked = call('check', '--map', 'slow', 'A drone tracks a car.')
+    assert 'defect' not in checked.err
+    assert checked.code in (0, 6)
 
 
 def test_ctrl_c_leaves_nothing(

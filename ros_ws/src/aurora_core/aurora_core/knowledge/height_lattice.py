@@ -19,6 +19,8 @@ from aurora_core.knowledge.map_model import MapModel
 FloatArray = npt.NDArray[np.float64]
 
 CELL_M = 5.0
+# Larger maps have larger cells, each twice as wide as before, until there are no more than these.
+_MOST_CELLS = 1_000_000
 # Distances are counted as this much shorter, so that rounding never frees a cell.
 _SLACK_M = 0.01
 _STEP_M = 0.1
@@ -123,12 +125,12 @@ def height_lattice(model: MapModel, clearance_m: float) -> HeightLattice:
         clearance_m: What is kept from obstacles.
     """
     west, south, east, north = model.bounds_m
-    columns = max(1, int(np.ceil((east - west) / CELL_M)))
-    rows = max(1, int(np.ceil((north - south) / CELL_M)))
-    x = west + CELL_M * np.arange(columns)
-    y = south + CELL_M * np.arange(rows)
+    cell_m = _cell_m(east - west, north - south)
+    columns, rows = _cells(east - west, cell_m), _cells(north - south, cell_m)
+    x = west + cell_m * np.arange(columns)
+    y = south + cell_m * np.arange(rows)
     grid_x, grid_y = np.meshgrid(x, y)
-    cells = shapely.box(grid_x, grid_y, grid_x + CELL_M, grid_y + CELL_M).ravel()
+    cells = shapely.box(grid_x, grid_y, grid_x + cell_m, grid_y + cell_m).ravel()
     shapes = [shapely.Polygon(b.ring, b.holes) for b in model.buildings]
     shapes += [shapely.Polygon(z.ring) for z in model.zones]
     tops = [b.height_m for b in model.buildings] + [z.ceiling_m for z in model.zones]
@@ -142,7 +144,19 @@ def height_lattice(model: MapModel, clearance_m: float) -> HeightLattice:
     return HeightLattice(
         west_m=west,
         south_m=south,
-        cell_m=CELL_M,
+        cell_m=cell_m,
         clearance_m=clearance_m,
         free_above_dm=np.ceil(highest / _STEP_M).astype(np.uint16).reshape(rows, columns),
     )
+
+
+def _cell_m(wide_m: float, high_m: float) -> float:
+    """Return the side of a cell of a map: the usual one, or a multiple of it."""
+    cell_m = CELL_M
+    while _cells(wide_m, cell_m) * _cells(high_m, cell_m) > _MOST_CELLS:
+        cell_m *= 2.0
+    return cell_m
+
+
+def _cells(length_m: float, cell_m: float) -> int:
+    return max(1, int(np.ceil(length_m / cell_m)))

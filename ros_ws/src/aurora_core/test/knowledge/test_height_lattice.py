@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -122,3 +124,16 @@ def test_arrays_come_back_the_same(lattice: HeightLattice) -> None:
 def test_arrays_that_are_no_lattice_are_refused(arrays: dict[str, np.ndarray]) -> None:
     with pytest.raises(MapError, match='lattice'):
         HeightLattice.of_arrays(arrays)
+
+
+def test_a_large_map_has_larger_cells_that_free_no_more(downtown: MapModel) -> None:
+    west, south, east, north = downtown.bounds_m
+    wide = replace(downtown, bounds_m=(west, south, east + 50_000.0, north + 50_000.0))
+    large = height_lattice(wide, CLEARANCE_M)
+    assert large.free_above_dm.size <= 1_000_000
+    assert large.cell_m > 5.0
+    points = _points(downtown, 3)
+    free = points[:, 2] >= large.free_above_m(points[:, :2])
+    assert free.mean() > 0.1
+    clearance_m = _field(downtown).clearance_series(points[free], CLEARANCE_M + 1.0)
+    assert clearance_m.min() >= CLEARANCE_M
