@@ -65,15 +65,15 @@ def test_the_shipped_records_are_what_is_measured(config: Path, call: Call) -> N
     knowledge = config / 'knowledge'
     shipped = _files(knowledge)
     shutil.rmtree(knowledge)
-    for name in ('downtown', 'junction'):
+    for name in ('downtown', 'helsinki', 'junction'):
         done = call('map', 'measure', name, '--json')
         assert done.code == 0, done.err
         facts = json.loads(done.out)
         assert facts['records']['map_name'] == name
-        assert all(row['stands'] == row['tried'] for row in facts['records']['spawns'])
+        assert all(row['stands'] >= 0.98 * row['tried'] for row in facts['records']['spawns'])
         assert {'vehicles', 'multirotor', 'spawn points', 'walks'} <= facts['seconds'].keys()
         assert 'aurora: walks' in done.err
-    assert set(_files(knowledge)) <= set(shipped)
+    assert set(_files(knowledge)) == set(shipped)
     for name, data in _files(knowledge).items():
         # Another zlib may pack the arrays differently; their digest is in the records.
         assert data == shipped[name] or name.endswith('.npz'), name
