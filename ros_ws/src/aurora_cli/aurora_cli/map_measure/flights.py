@@ -10,6 +10,7 @@ from math import ceil, pi, sqrt
 from aurora_core.comm.link import LinkSettings, MessageLink, Path, link_stream
 from aurora_core.errors import AirSimulatorError
 from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.measured_on import weather_winds
 from aurora_core.knowledge.uav_record import (
     RESERVE,
     BrakingRow,
@@ -36,7 +37,8 @@ _SHARE = 0.9  # of the speed, at the end of an acceleration
 _BRAKING_MPS = (5.0, 10.0, 15.0)
 _TURN_MPS = (2.0, 5.0, 10.0, 15.0)
 _LAG_MPS = (5.0, 10.0, 15.0)
-_WINDS_MPS = ((0.0, 0.0), (3.0, 2.0), (6.0, 4.0), (10.0, 5.0))
+# Beside those of every weather (mean and gust).
+_STRONG_MPS = (10.0, 5.0)
 _MOST_GUST_MPS = 5.0
 _HOVER_S = 120.0
 _SEED = 1
@@ -130,11 +132,16 @@ def measure_multirotor(dt_s: float, limits: Limits) -> UavRecord:
         braking=stops,
         turns=tuple(_turn(dt_s, v) for v in _below(_TURN_MPS, asked)),
         lags=tuple(_lag(dt_s, v) for v in _below(_LAG_MPS, asked)),
-        drifts=tuple(
-            _drift(dt_s, w) for w in (*_WINDS_MPS, (limits.wind_max_mps, _MOST_GUST_MPS))
-        ),
+        drifts=tuple(_drift(dt_s, wind) for wind in _winds(limits)),
         link=_link(dt_s, limits),
     )
+
+
+def _winds(limits: Limits) -> Sequence[tuple[float, float]]:
+    """Return the winds to hover in: of every weather, and the strongest that can be asked for."""
+    winds = weather_winds(limits).values()
+    gust_mps = max(_MOST_GUST_MPS, *(gust for _, gust in winds))
+    return sorted({*winds, _STRONG_MPS, (limits.wind_max_mps, gust_mps)})
 
 
 def _below(speeds: Sequence[float], most: float) -> Sequence[float]:

@@ -197,6 +197,29 @@ def test_a_clearance_that_changes_is_measured_again(config: Path, call: Call) ->
     assert call('check', '--map', 'junction', TRUCK).code == 0
 
 
+@pytest.mark.parametrize(
+    ('old', 'new', 'code'),
+    [
+        # Gusts that the multirotor holds against, and a storm that carries it off.
+        ('"heavy_rain": 4.0', '"heavy_rain": 18.0', 0),
+        ('"heavy_rain": 6.0', '"heavy_rain": 28.0', 6),
+    ],
+)
+def test_a_wind_that_changes_is_flown_in(
+    config: Path, call: Call, old: str, new: str, code: int
+) -> None:
+    rainy = 'A drone hovers over the intersection at 30 m for 10 seconds in heavy rain.'
+    assert call('check', '--map', 'junction', rainy).code == 0
+    _edit(config / 'limits.json', old, new)
+    installed.forget()
+    refused = call('check', '--map', 'junction', rainy)
+    assert refused.code == 4
+    assert 'measured with wind_heavy_rain 6 m/s, gusts 4 m/s, here is' in refused.out
+    assert call('map', 'measure', 'junction').code == 0
+    assert call('check', '--map', 'junction', rainy).code == code
+    assert call('check', '--map', 'junction', TRUCK).code == 0
+
+
 def test_a_stop_on_the_way_leaves_what_was_there(
     config: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -17,6 +17,7 @@ from aurora_core.errors import ConfigError
 from aurora_core.files import MAP_BYTES, read_bytes
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits
+from aurora_core.spec.vocabulary import Weather
 
 Made = Mapping[str, str | float]
 
@@ -79,7 +80,17 @@ def uav_basis(dt_s: float, limits: Limits) -> dict[str, str | float]:
         'link_range_sight_m': limits.link_range_sight_m,
         'link_range_blocked_m': limits.link_range_blocked_m,
         'wind_max_mps': limits.wind_max_mps,
+        **{
+            f'wind_{weather}': f'{mean_mps:g} m/s, gusts {gust_mps:g} m/s'
+            for weather, (mean_mps, gust_mps) in weather_winds(limits).items()
+        },
     }
+
+
+def weather_winds(limits: Limits) -> dict[str, tuple[float, float]]:
+    """Return the wind of each weather, mean and gust, m/s."""
+    names = [weather.value for weather in Weather]
+    return {name: (limits.wind_mean_mps[name], limits.wind_gust_mps[name]) for name in names}
 
 
 def check_made_of(path: Path, made: Made, here: Made, map_name: str = '') -> None:

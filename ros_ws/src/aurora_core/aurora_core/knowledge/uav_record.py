@@ -14,7 +14,12 @@ from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path, config_root
 from aurora_core.knowledge.limits import Limits, NotNegative, Positive, load_limits
-from aurora_core.knowledge.measured_on import check_made_of, measure_command, uav_basis
+from aurora_core.knowledge.measured_on import (
+    check_made_of,
+    measure_command,
+    uav_basis,
+    weather_winds,
+)
 from aurora_core.knowledge.settings import FlightDefaults, Settings, load_settings
 
 RECORDS = ('knowledge', 'measured', 'multirotor.json')
@@ -186,14 +191,16 @@ def possible_settings(settings: Settings, limits: Limits, record: UavRecord) -> 
 def planned_clearance_m(settings: Settings, limits: Limits, record: UavRecord) -> float:
     """Return what planned ways keep from obstacles: the vehicle leaves them in wind and corners.
 
+    A weather whose wind carries it farther than a tracked target may be missed counts for none:
+    there the vehicle is nowhere where it is to be, and the check doubts its hovers.
+
     Args:
         settings: As configured: the clearance is at least theirs.
         limits: Clearance that has to be kept, and the wind of every weather.
         record: Of the vehicle.
     """
-    drift_m = record.drift_m(
-        max(limits.wind_mean_mps.values()), max(limits.wind_gust_mps.values())
-    )
+    drifts = (record.drift_m(*wind) for wind in weather_winds(limits).values())
+    drift_m = max((d for d in drifts if d <= limits.tracking_horizontal_m), default=0.0)
     aside_m = record.overshoot_m(settings.flight.corner_speed_mps) + drift_m
     needed_m = limits.clearance_min_m + aside_m
     return max(settings.grounding.clearance_m, needed_m)

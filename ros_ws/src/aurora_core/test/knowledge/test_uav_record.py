@@ -16,6 +16,7 @@ from aurora_core.knowledge.limits import Limits, load_limits
 from aurora_core.knowledge.settings import Settings, load_settings
 from aurora_core.knowledge.uav_record import (
     RECORDS,
+    DriftRow,
     UavRecord,
     load_uav_record,
     planned_clearance_m,
@@ -100,6 +101,19 @@ def test_who_leaves_its_way_in_corners_keeps_farther_from_obstacles() -> None:
     found = planned_clearance_m(settings, limits, clumsy)
     assert found == pytest.approx(limits.clearance_min_m + 6.0 + drift_m)
     assert planned_clearance_m(settings, limits, shipped) == settings.grounding.clearance_m
+
+
+def test_a_wind_that_carries_it_away_widens_no_clearance() -> None:
+    """Nothing would be placed in calm air for the sake of a storm that nobody asks for."""
+    limits, settings, shipped = _shipped()
+    rows = (*shipped.drifts, DriftRow(mean_mps=30.0, gust_mps=20.0, drift_m=900.0))
+    blown = shipped.model_copy(update={'drifts': rows})
+    for gust_mps in (18.0, 99.0):  # one that was measured, and one that was not
+        stormy = Limits.model_validate(
+            limits.model_dump()
+            | {'wind_gust_mps': {**limits.wind_gust_mps, 'heavy_rain': gust_mps}}
+        )
+        assert planned_clearance_m(settings, stormy, blown) == settings.grounding.clearance_m
 
 
 def test_figures_between_those_measured_are_of_the_next_one() -> None:
