@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import ceil, pi, sqrt
+from math import ceil, isfinite, pi, sqrt
 
 from aurora_core.comm.link import LinkSettings, MessageLink, Path, link_stream
+from aurora_core.document import first_problem
 from aurora_core.errors import AirSimulatorError
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.measured_on import weather_winds
@@ -25,6 +26,7 @@ from aurora_uav_sim.autopilot import Autopilot, Result, Target
 from aurora_uav_sim.parameters import MAX_SUBSTEP_S, installed_model
 from aurora_uav_sim.wind import wind_stream
 
+_OTHER_MODEL = 'compare config/multirotor.json with the shipped file'
 # Commanded where the vehicle is to do all that it can (m/s).
 _ALL_MPS = 90.0
 _HEIGHT_M = 100.0
@@ -68,7 +70,7 @@ class _Flight:
             raise AirSimulatorError(
                 f'the multirotor is to be measured at {_HEIGHT_M:g} m and gets to '
                 f'{self.body.z:.1f} m',
-                hint='compare config/multirotor.json with the shipped file',
+                hint=_OTHER_MODEL,
             )
 
     def _is_up(self) -> bool:
@@ -87,6 +89,10 @@ class _Flight:
             self.pilot.set_target(target(tick * self.dt_s))
             for _ in range(self._steps):
                 self.pilot.step(h)
+            if not isfinite(self.body.x + self.body.y + self.body.z + self.speed):
+                raise AirSimulatorError(
+                    'the multirotor tumbles when it is measured', hint=_OTHER_MODEL
+                )
             if until is not None and until():
                 return (tick + 1) * self.dt_s
         return ticks * self.dt_s
@@ -116,6 +122,15 @@ def measure_multirotor(dt_s: float, limits: Limits) -> UavRecord:
         AirSimulatorError: The vehicle does not fly.
         ConfigError: Its file is missing or out of its schema.
     """
+    try:
+        return _flown(dt_s, limits)
+    except (ArithmeticError, ValueError) as err:
+        raise AirSimulatorError(
+            f'the multirotor does not fly as it has to: {first_problem(err)}', hint=_OTHER_MODEL
+        ) from err
+
+
+def _flown(dt_s: float, limits: Limits) -> UavRecord:
     speed, gain_s = _top_speed(dt_s)
     climb, descent = (_vertical(dt_s, sign) for sign in (1.0, -1.0))
     stops = tuple(_braking(dt_s, v) for v in _below(_BRAKING_MPS, speed))

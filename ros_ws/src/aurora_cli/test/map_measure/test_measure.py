@@ -220,6 +220,27 @@ def test_a_wind_that_changes_is_flown_in(
     assert call('check', '--map', 'junction', TRUCK).code == 0
 
 
+@pytest.mark.parametrize(
+    ('old', 'new', 'said'),
+    [
+        ('"vertical_acceleration_limit_mps2": 5.0', '"vertical_acceleration_limit_mps2": 12.5',
+         'the multirotor'),
+        ('"mass_kg": 1.5', '"mass_kg": 3.75', 'gets to 0.0 m'),
+    ],
+)  # fmt: skip
+def test_a_multirotor_that_does_not_fly_is_told(
+    config: Path, call: Call, old: str, new: str, said: str
+) -> None:
+    before = _files(config / 'knowledge')
+    _edit(config / 'multirotor.json', old, new)
+    done = call('map', 'measure', 'junction')
+    assert done.code == 4
+    assert said in done.err
+    assert 'multirotor.json' in done.err
+    assert 'defect' not in done.err
+    assert _files(config / 'knowledge') == before
+
+
 def test_a_stop_on_the_way_leaves_what_was_there(
     config: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
