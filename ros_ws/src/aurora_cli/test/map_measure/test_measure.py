@@ -149,6 +149,7 @@ def _seen() -> dict[str, tuple[float, ...]]:
         'parser: UAV at most, m': (limits['uav_altitude_max_m'],),
         'grounding: truck, m long': (truck.length_m,),
         'grounding: UAV, m/s planned': (settings.flight.speed_max_mps,),
+        'grounding: its target, m/s': (settings.grounding.target_speed_mps,),
         'grounding: UAV, m from obstacles': (settings.grounding.clearance_m,),
     }
 

@@ -28,6 +28,10 @@ RECORDS = ('knowledge', 'measured', 'multirotor.json')
 RESERVE = 1.15
 # What is planned stays so far below a limit.
 _PLANNED_SHARE = 0.92
+# Whom it tracks drives so much slower than it is planned to fly: at most, and where nobody says
+# how fast (m/s).
+_ROOM_MPS = 1.0
+_CAUGHT_UP_MPS = 3.0
 _STEPS = 10.0  # limits that follow from a measurement are whole tenths
 
 
@@ -179,12 +183,18 @@ def possible_settings(settings: Settings, limits: Limits, record: UavRecord) -> 
         limits: As configured; the possible ones follow from the record.
         record: Of the vehicle.
     """
-    grounding = settings.grounding.model_dump() | {
-        'clearance_m': planned_clearance_m(settings, limits, record)
+    flight = within(settings.flight, limits, record)
+    style = settings.grounding
+    trackable_mps = max(flight.speed_max_mps - _ROOM_MPS, flight.speed_max_mps / 2.0)
+    followed_mps = max(flight.speed_max_mps - _CAUGHT_UP_MPS, flight.speed_max_mps / 2.0)
+    grounding = style.model_dump() | {
+        'clearance_m': planned_clearance_m(settings, limits, record),
+        'target_speed_mps': min(style.target_speed_mps, followed_mps),
+        'speeds': style.speeds.model_dump()
+        | {'trackable_mps': min(style.speeds.trackable_mps, trackable_mps)},
     }
     return Settings.model_validate(
-        settings.model_dump()
-        | {'flight': within(settings.flight, limits, record), 'grounding': grounding}
+        settings.model_dump() | {'flight': flight, 'grounding': grounding}
     )
 
 

@@ -93,6 +93,18 @@ def test_no_limit_asks_for_more_than_the_vehicle_can_do(
     assert within(settings.flight, limits, record).speed_max_mps < possible.uav_speed_max_mps
 
 
+@pytest.mark.parametrize(('top_mps', 'target_mps'), [(9.5, 4.6), (7.0, 2.8), (3.0, 1.2)])
+def test_targets_drive_no_faster_than_the_vehicle_keeps_up_with(
+    top_mps: float, target_mps: float
+) -> None:
+    limits, settings, shipped = _shipped()
+    slow = UavRecord.model_validate(shipped.model_dump() | {'speed_mps': top_mps})
+    found = possible_settings(settings, limits, slow)
+    planned_mps = found.flight.speed_max_mps
+    assert target_mps - 0.5 < found.grounding.target_speed_mps <= target_mps
+    assert found.grounding.target_speed_mps <= found.grounding.speeds.trackable_mps < planned_mps
+
+
 def test_who_leaves_its_way_in_corners_keeps_farther_from_obstacles() -> None:
     limits, settings, shipped = _shipped()
     rows = tuple(row.model_copy(update={'overshoot_m': 6.0}) for row in shipped.turns)
