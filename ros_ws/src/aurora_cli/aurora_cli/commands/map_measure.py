@@ -40,6 +40,7 @@ def _facts(done: Measured) -> dict[str, Any]:
         'records': done.records.model_dump(mode='json'),
         'types': [record.model_dump(mode='json') for record in done.types],
         'multirotor': done.multirotor.model_dump(mode='json'),
+        'lower_limits': list(done.lower_limits),
         'files': [str(path) for path in done.files],
         'seconds': {step: round(value, 2) for step, value in done.seconds.items()},
     }
@@ -64,6 +65,7 @@ def _lines(done: Measured) -> Iterator[str]:
         f'multirotor: {uav.speed_mps:.1f} m/s, climb {uav.climb_mps:.1f} m/s, descent '
         f'{uav.descent_mps:.1f} m/s, hover for {uav.endurance_s / 60.0:.1f} min'
     )
+    yield from (f'  {text}' for text in done.lower_limits)
     for path in done.files:
         yield f'wrote {path}'
     yield 'seconds: ' + ', '.join(f'{k} {v:.1f}' for k, v in done.seconds.items())

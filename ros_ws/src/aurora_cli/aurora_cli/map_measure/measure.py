@@ -49,7 +49,7 @@ from aurora_core.knowledge.measured_on import ground_basis, uav_basis, vtypes_pa
 from aurora_core.knowledge.reach import edge_parts
 from aurora_core.knowledge.settings import load_settings
 from aurora_core.knowledge.sight_shares import CornerShare, SightShare, corner_shares, sight_shares
-from aurora_core.knowledge.uav_record import UavRecord, planned_clearance_m
+from aurora_core.knowledge.uav_record import UavRecord, limits_in_force, planned_clearance_m
 from aurora_core.spec.vocabulary import AgentType
 from aurora_sumo_bridge.drive_probe import measure_types
 from aurora_sumo_bridge.spawn_probe import Spot, probe_spawns
@@ -61,12 +61,17 @@ _SCHEMA = 1
 
 @dataclass(kw_only=True)
 class Measured:
-    """What was measured, where it was written, and how long each step took."""
+    """What was measured, where it was written, and how long each step took.
+
+    Attributes:
+        lower_limits: Limits that the multirotor does not reach, in sentences.
+    """
 
     model: MapModel
     types: tuple[AgentTypeRecord, ...]
     multirotor: UavRecord
     records: MapRecords
+    lower_limits: tuple[str, ...]
     files: tuple[Path, ...] = ()
     seconds: dict[str, float] = field(default_factory=dict)
 
@@ -125,7 +130,12 @@ def measure(model: MapModel, tell: Tell) -> Measured:
         corners=corners,
     )
     done = Measured(
-        model=model, types=types, multirotor=multirotor, records=records, seconds=seconds
+        model=model,
+        types=types,
+        multirotor=multirotor,
+        records=records,
+        lower_limits=limits_in_force(limits, multirotor),
+        seconds=seconds,
     )
     folder = records_folder(model.name)
     with Interrupts():

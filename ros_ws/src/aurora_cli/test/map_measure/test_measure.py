@@ -85,6 +85,7 @@ def test_measuring_again_changes_no_byte(config: Path, call: Call) -> None:
     assert call('map', 'measure', 'junction').code == first.code == 0
     assert _files(config) == before
     assert 'car stands at' in first.out
+    assert 'in force' not in first.out
 
 
 def test_a_changed_vehicle_is_refused_until_measured_and_then_used(
@@ -127,7 +128,9 @@ def test_a_changed_multirotor_is_refused_until_measured_and_then_planned_with(
     refused = call('check', '--map', 'junction', high)
     assert refused.code == 4
     assert 'measured with multirotor_sha256' in refused.out
-    assert call('map', 'measure', 'junction').code == 0
+    done = call('map', 'measure', 'junction')
+    assert done.code == 0
+    assert 'uav_climb_max_mps is 0.8 in force, not 5: the multirotor does no more' in done.out
     known = installed.installed()
     assert known.limits.uav_climb_max_mps == 0.8  # of 1.0 m/s, with the reserve
     assert 0.5 < known.settings.flight.climb_mps < 0.8

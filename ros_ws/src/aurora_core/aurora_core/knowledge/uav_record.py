@@ -175,6 +175,17 @@ def possible_limits(limits: Limits, record: UavRecord) -> Limits:
     return Limits.model_validate(limits.model_dump() | found)
 
 
+def limits_in_force(limits: Limits, record: UavRecord) -> tuple[str, ...]:
+    """Return in sentences which limits are lower in force than the configured ones."""
+    configured, possible = limits.model_dump(), possible_limits(limits, record).model_dump()
+    return tuple(
+        f'{name} is {possible[name]:g} in force, not {configured[name]:g}: the multirotor does no '
+        'more'
+        for name in configured
+        if possible[name] != configured[name]
+    )
+
+
 def possible_settings(settings: Settings, limits: Limits, record: UavRecord) -> Settings:
     """Return settings that ask nothing of a vehicle that it was not measured to do.
 
