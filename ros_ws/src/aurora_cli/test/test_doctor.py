@@ -128,7 +128,7 @@ def test_a_machine_without_a_problem_is_clean(planted: Planted) -> None:
     planted.graph()
     machine = planted.machine()
     for name, function in CHECKS:
-        if name not in ('memory', 'maps'):  # these look at the real machine too
+        if name not in ('memory', 'maps', 'records'):  # these look at the real machine too
             assert check(name, function, machine).findings == (), name
 
 
@@ -440,6 +440,26 @@ def test_maps(planted: Planted) -> None:
     planted.environment['AURORA_CONFIG_DIR'] = '/not/there'
     (finding,) = check('maps', data.maps, planted.machine()).findings
     assert 'not a folder' in finding.found
+
+
+def test_records_of_other_vehicles_and_maps(planted: Planted) -> None:
+    """Every command is refused with them: the doctor says so before anything is tried."""
+    config = planted.folder / 'config'
+    for name in ('knowledge', 'maps'):
+        unused = shutil.ignore_patterns('helsinki', 'downtown')
+        shutil.copytree(config_path(name), config / name, ignore=unused)
+    for file in config_path().glob('*.json'):
+        shutil.copy(file, config)
+    planted.environment['AURORA_CONFIG_DIR'] = str(config)
+    assert data.records(planted.machine()) == []
+    arrays = config / 'knowledge' / 'maps' / 'junction' / 'arrays.npz'
+    arrays.write_bytes(b'')
+    assert only(data.records(planted.machine())).fix.endswith('aurora map measure junction')
+    text = (config / 'multirotor.json').read_text()
+    (config / 'multirotor.json').write_text(text.replace('"mass_kg": 1.5', '"mass_kg": 1.6'))
+    finding = only(data.records(planted.machine()))
+    assert 'measured with multirotor_sha256' in finding.found
+    assert 'aurora map measure' in finding.fix
 
 
 @pytest.fixture

@@ -42,6 +42,37 @@ def maps(machine: Machine) -> list[Finding]:
     return findings
 
 
+def records(machine: Machine) -> list[Finding]:
+    """What was measured is of the vehicles, maps, limits and simulator that are here."""
+    from aurora_core.errors import AuroraError, ConfigError
+    from aurora_core.knowledge.map_folders import list_maps
+    from aurora_core.pipeline.knowledge import installed_knowledge
+
+    def finding(what: str, err: AuroraError) -> Finding:
+        return Finding(
+            expected=f'{what} measured as installed',
+            found=err.message,
+            fix=err.hint or 'aurora map measure downtown',
+        )
+
+    findings = []
+    with _environment_of(machine):
+        try:
+            known = installed_knowledge()
+        except ConfigError as err:
+            return [finding('vehicles', err)]
+        for name in list_maps():
+            try:
+                known.map(name)
+            except AuroraError:
+                continue  # told of by the check of maps
+            try:
+                known.measured(name)
+            except AuroraError as err:
+                findings.append(finding(f'map {name}', err))
+    return findings
+
+
 def model(machine: Machine) -> list[Finding]:
     """The configured language model can be reached; `offline` needs nothing."""
     if machine.model == OFFLINE:

@@ -34,6 +34,7 @@ CHECKS: tuple[tuple[str, Check], ...] = (
     ('shared memory', leftovers.shared_memory),
     ('runs', leftovers.unfinished_runs),
     ('maps', data.maps),
+    ('records', data.records),
     ('model', data.model),
 )
 
