@@ -66,6 +66,18 @@ _NEAR = 'when the van comes within 30 m of the ego car'
             'A drone alerts the ego car when a van comes within 30 m of it and climbs to 60 m.',
             'climbs',
         ),
+        ('A drone tracks a van at 30 m and is at most 35 m from it.', 'at most 35 m from it'),
+        ('A drone tracks a van at 30 m and stays at least 20 m from it.', 'at least 20 m'),
+        ('A drone tracks a van and must be within 25 m of it for 10 s.', '25 m of'),
+        ('A truck drives to City Hall and stays there. A drone tracks the truck.', 'stays there'),
+        ('A bicycle rides 10 m behind a bus and stays there. A drone tracks it.', 'stays there'),
+        (
+            'A drone hovers at 50 m for 20 s, then descends to 20 m; when it reaches 20 m, the '
+            'ego car starts.',
+            '20 m',
+        ),
+        ('A drone tracks the bus at 40 m. The bus stops for 20 seconds.', '20 seconds'),
+        ('A drone tracks the bus at 40 m. The bus waits for 10 seconds.', '10 seconds'),
         ('A drone hovers over City Hall at 50 m for 30 s and watches a bus.', 'watches a bus'),
         ('Two drones hover at 40 m and 60 m for 20 s, the first one at 60 m.', 'the first one'),
         ('A drone alerts the ego car while it climbs to 60 m and then tracks a van.', 'alerts'),
@@ -125,6 +137,11 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A drone flies a route of 4 waypoints at under 6 m/s over City Hall.',
         'A drone tracks the ego car from more than 30 m away.',
         'A truck is placed more than 40 m ahead of the ego car.',
+        'A drone hovers over City Hall at 40 m and stays there for 20 seconds.',
+        'A drone tracks a van at 30 m. The altitude of the drone is at most 40 m.',
+        'A drone tracks a van at 30 m. The drone is always within 45 m of the van.',
+        'A bus starts after 12 s. A drone tracks the bus when it starts, for 60 s.',
+        'A drone hovers at 50 m for 20 s; when it reaches 20 m, the ego car starts.',
     ],
 )
 def test_what_elements_say_is_not_doubted(prompt: str) -> None:

@@ -7,10 +7,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from aurora_core.parsing.atoms import Atom, AtomKind
-from aurora_core.parsing.doubts.clauses import clause_of, events_in, over, sentences, within
-from aurora_core.spec.parameter import Span
-from aurora_core.spec.scenario import Clause, ScenarioSpec
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.doubts.clauses import (
+    clause_of,
+    events_in,
+    meet,
+    over,
+    sentences,
+    within,
+)
+from aurora_core.spec.parameter import Parameter, Provenance, Span
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import AltitudeTrigger, Clause, ScenarioSpec, UavAction
 from aurora_core.spec.vocabulary import ClauseStatus, MissionMode
 
 # What tells of a flight: verbs, `an orbit`, `a patrol`, `back again`.
@@ -18,6 +26,12 @@ _FLOWN = frozenset(
     {AtomKind.VERB, AtomKind.PATTERN, AtomKind.THEN, AtomKind.HAPPENING, AtomKind.ROUTE}
 )
 _CLIMBS = frozenset({'ascend', 'descend'})
+# Who does nothing in the air, and what a distance is measured from.
+_GROUND = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO})
+_FROM = ('from', 'away from', 'of')
+_STAYS = ('holds', 'keeps', 'remains', 'stays', 'waits')
+# Behind these a verb has the subject of the one before.
+_JOINS = frozenset({AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN})
 
 
 def watched_while_hovering(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
@@ -82,6 +96,57 @@ def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[S
             continue
         if Span(start=measure.measure.start, end=measure.measure.end) in told:
             yield over(measure, place)
+
+
+def heights_from_somebody(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`tracks a van and is at most 35 m from it` that became an altitude of at most 35 m."""
+    heights = [c.value.span for c in spec.conditions if c.quantity == QuantityName.ALTITUDE]
+    for measure, behind in pairwise(atoms):
+        if measure.measure is None or not behind.words.startswith(_FROM):
+            continue
+        own = Span(start=measure.start, end=measure.end)
+        if any(span is not None and meet(span, own) for span in heights):
+            yield over(measure, behind)
+
+
+def stays_of_others(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`a truck drives to City Hall and stays there` that became a hover of the drone."""
+    missions = {m.id for m in spec.missions}
+    for sentence in sentences(atoms):
+        doer: Atom | None = None
+        told = [a for a in sentence if a.kind is not AtomKind.FILL]
+        for before, atom in pairwise(told):
+            if atom.kind is not AtomKind.VERB:
+                continue
+            if before.kind not in _JOINS:
+                doer = before if before.is_actor else None
+            clause = clause_of(spec, atom)
+            stays = atom.key == 'hover' and atom.words.startswith(_STAYS)
+            if not stays or clause is None or doer is None or doer.noun is None:
+                continue
+            if doer.noun.kind in _GROUND and missions & set(clause.ids):
+                yield clause.span
+
+
+def heights_passed_twice(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`descends to 20 m; when it reaches 20 m` that the climb to the first height meets, too."""
+    for event in spec.events:
+        trigger = event.trigger
+        if not isinstance(trigger, AltitudeTrigger):
+            continue
+        flown = [m.altitude_m for m in spec.missions if m.uav == trigger.uav]
+        acts = [e.action for e in spec.events if isinstance(e.action, UavAction)]
+        later = [*flown[1:], *(a.altitude_m for a in acts if a.uav == trigger.uav)]
+        first_m = flown[0].value if flown else 0.0
+        meant = trigger.value_m
+        again = any(p is not None and _is(p, meant.value) for p in later)
+        if again and meant.value < first_m and meant.span is not None:
+            yield meant.span
+
+
+def _is(parameter: Parameter, value: float) -> bool:
+    """Whether a parameter was told to have a value."""
+    return parameter.provenance is Provenance.EXPLICIT and parameter.value == value
 
 
 def _flown(spec: ScenarioSpec, atoms: Sequence[Atom]) -> set[str]:

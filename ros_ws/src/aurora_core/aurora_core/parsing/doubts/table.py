@@ -29,7 +29,10 @@ from aurora_core.parsing.doubts.bodies import (
 from aurora_core.parsing.doubts.flights import (
     flights_without_verb,
     folded_climbs,
+    heights_from_somebody,
     heights_over_fliers,
+    heights_passed_twice,
+    stays_of_others,
     watched_while_hovering,
 )
 from aurora_core.parsing.doubts.messages import (
@@ -49,6 +52,7 @@ from aurora_core.parsing.doubts.times import (
     landings,
     let_pass,
     started_again,
+    times_of_others,
     untied_effects,
 )
 from aurora_core.spec.parameter import Span
@@ -70,6 +74,9 @@ _CHECKS: tuple[_Check, ...] = (
     flights_without_verb,
     folded_climbs,
     heights_over_fliers,
+    heights_from_somebody,
+    heights_passed_twice,
+    stays_of_others,
     other_receivers,
     told_by_a_person,
     open_moments,
@@ -86,6 +93,7 @@ _CHECKS: tuple[_Check, ...] = (
     numbered,
     at_one_moment,
     bounds_meanwhile,
+    times_of_others,
 )
 
 

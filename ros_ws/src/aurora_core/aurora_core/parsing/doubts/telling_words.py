@@ -20,6 +20,7 @@ from aurora_core.parsing.coverage import parameters
 from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.doubts.clauses import clause_of, meet, over
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     AgentAction,
     Clause,
@@ -186,6 +187,20 @@ def _mission(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(m.id in clause.ids for m in spec.missions)
 
 
+def _whole_run(spec: ScenarioSpec, clause: Clause) -> bool:
+    """No flight of an open duration in a run of a stated one: it would end somewhere in it."""
+    flown = [m.duration_s for m in spec.missions if m.id in clause.ids]
+    told = all(d is not None and d.provenance is Provenance.EXPLICIT for d in flown)
+    return told or spec.world.duration_s is None
+
+
+def _unbroken(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A bound on sight that no gap keeps."""
+    bounds = [c for c in spec.conditions if c.id in clause.ids]
+    shares = [c.value.value for c in bounds if c.quantity == QuantityName.VISIBLE_FRACTION]
+    return any(c.hold_s is not None for c in bounds) or any(s >= 1.0 for s in shares)
+
+
 def _distances(spec: ScenarioSpec, clause: Clause) -> list[Parameter]:
     acting = [a for a in spec.agents if a.id in clause.ids]
     told = [p.distance_m for a in acting for p in a.placements if p.distance_m is not None]
@@ -238,7 +253,8 @@ def _exclusive(spec: ScenarioSpec, clause: Clause) -> bool:
         e for e in spec.events if not isinstance(e.trigger, TimeTrigger)
     ]
     bound = (
-        isinstance(e.action, SendMessage | UavAction)
+        isinstance(e.action, SendMessage)
+        or (isinstance(e.action, UavAction) and e.action.do != 'ascend')
         or (isinstance(e.action, AgentAction) and e.action.do in _NOT_BEFORE)
         for e in events
     )
@@ -403,6 +419,8 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'timed': _timed,
     'condition': _condition,
     'mission': _mission,
+    'whole_run': _whole_run,
+    'unbroken': _unbroken,
     'kept_distance': _kept_distance,
     'no_distance': _no_distance,
     'no_act': _no_act,

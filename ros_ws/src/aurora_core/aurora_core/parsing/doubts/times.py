@@ -32,6 +32,8 @@ from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
 # Whose distance is that of t = 0: where one starts, how far ahead a van is that cuts in.
 _FROM_HERE = frozenset({'change_lane', 'start'})
 _ONCE = MOMENTS | {'ascend', 'descend', 'land'}
+# What a driver does for a while, and a flight does not.
+_STANDS = frozenset({'park', 'wait'})
 _NEARS = frozenset({'approach', 'reach'})
 _INTRANSITIVE = frozenset({'brake', 'cross', 'land', 'start', 'stop', 'turn_left', 'turn_right'})
 _LETS = frozenset({'lets', 'letting'})
@@ -132,6 +134,24 @@ def bare_sequels(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 def _alone(verb: Atom, told: Sequence[Atom]) -> bool:
     """`the truck stops, then the bus`: whoever is named can only do the same."""
     return verb.key in _INTRANSITIVE and any(a.is_actor for a in told)
+
+
+def times_of_others(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`tracks the bus; the bus stops for 5 s` that became a flight of 5 s."""
+    drivers = {agent.id for agent in spec.agents}
+    for mission in spec.missions:
+        told = None if mission.duration_s is None else mission.duration_s.span
+        if told is None:
+            continue
+        for clause in spec.clauses:
+            holds = clause.span.start <= told.start and told.end <= clause.span.end
+            before = [a for a in within(atoms, clause.span) if a.end <= told.start]
+            acts = [a for a in before if a.kind is AtomKind.VERB]
+            aside = any(a.kind in (AtomKind.COMMA, AtomKind.SUBORDINATOR) for a in before)
+            if not holds or aside or not acts or acts[-1].key not in _STANDS | MOMENTS:
+                continue
+            if clause.status is ClauseStatus.ENCODED and drivers & set(clause.ids):
+                yield told
 
 
 def at_one_moment(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
