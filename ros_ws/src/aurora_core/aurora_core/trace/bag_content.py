@@ -39,6 +39,7 @@ _DT_S = (1e-3, 1.0)
 # Arrays of the longest run that is possible (30 min, 200 agents, 10 UAVs) have 0.5 GB.
 _ARRAY_BYTES = 2 << 30
 _NOTES = 12
+_SECOND_NS = 1_000_000_000
 _BAD_VALUES = (ValueError, LookupError, TypeError, ArithmeticError, AttributeError)
 
 
@@ -85,9 +86,17 @@ def content_of(
         BagError: Roster or world is missing or damaged.
     """
     decoded: dict[str, list[Any]] = {topic: [] for topic in messages.TOPICS}
+    once: dict[str, set[bytes]] = {messages.ROSTER: set(), messages.WORLD: set()}
     for message in stored:
         decoded[message.topic].append(message.value)
+        if message.topic in once:
+            once[message.topic].add(bytes(message.cdr))
     damage: Damage = list(known_damage)
+    damage += [
+        (Integrity.ALTERED, f'{topic}: {len(texts)} different ones are recorded')
+        for topic, texts in once.items()
+        if len(texts) > 1
+    ]
     for topic, name in ((messages.ROSTER, 'roster'), (messages.WORLD, 'world')):
         if not decoded[topic]:
             why = note_of(damage) or 'the recording never started'
@@ -162,6 +171,7 @@ class _Assembly:
         self._decoded = decoded
         self._damage = damage
         self._where = where
+        self._runs: set[int] = set()
 
     def trace(self) -> Trace:
         n, m = len(self._roster.agents), len(self._roster.uavs)
@@ -177,6 +187,8 @@ class _Assembly:
             )
         driven = self._by_tick(messages.GROUND_COMMAND)
         flown = self._by_tick(messages.UAV_COMMAND)
+        if len(self._runs) > 1:
+            self._found(Integrity.ALTERED, f'the messages are stamped by {len(self._runs)} runs')
         ground, bad_ground = self._rows(
             messages.GROUND_STATE, ground_states, last, n, GROUND_WIDTH
         )
@@ -234,9 +246,15 @@ class _Assembly:
     def _by_tick(self, topic: str) -> dict[int, Any]:
         """Return the messages by tick; of a tick that is there twice the first counts."""
         by_tick: dict[int, Any] = {}
-        twice, late, last = [], [], -1
+        twice, late, off, last = [], [], [], -1
         for message in self._decoded[topic]:
             tick = int(message.tick)
+            self._runs.add(int(message.run_number))
+            header = message.header
+            stamp_ns = header.stamp.sec * _SECOND_NS + header.stamp.nanosec
+            asked_ns = messages.time_ns(tick, self._roster.dt_s)
+            if stamp_ns != asked_ns or header.frame_id != messages.FRAME_ID:
+                off.append(tick)
             if tick in by_tick:
                 twice.append(tick)
                 continue
@@ -248,6 +266,9 @@ class _Assembly:
             self._found(Integrity.ALTERED, f'{topic}: {_ticks(twice)} recorded twice')
         if late:
             self._found(Integrity.ALTERED, f'{topic}: {_ticks(late)} out of order')
+        if off:
+            text = f'{topic}: {_ticks(off)} stamped with another time or frame'
+            self._found(Integrity.ALTERED, text)
         return by_tick
 
     def _last_tick(self, ground: dict[int, Any], uav: dict[int, Any]) -> int:

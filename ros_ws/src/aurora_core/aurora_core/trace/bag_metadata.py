@@ -104,13 +104,15 @@ def read_metadata(folder: Path) -> BagMetadata:
         info = document['rosbag2_bagfile_information']
         custom = info.get('custom_data') or {}
         length = custom.get(_BYTES)
+        first_ns = int(info['starting_time']['nanoseconds_since_epoch'])
         return BagMetadata(
             file_name=str(info['relative_file_paths'][0]),
             sha256=str(custom.get(_SHA256, '')),
             file_bytes=None if length is None else int(length),
             content_sha256=str(custom.get(_CONTENT, '')),
             recovered_from=str(custom.get(_RECOVERED, '')),
-            first_ns=int(info['starting_time']['nanoseconds_since_epoch']),
+            first_ns=first_ns,
+            last_ns=first_ns + int(info['duration']['nanoseconds']),
             topics={
                 str(entry['topic_metadata']['name']): RecordedTopic(
                     type_name=str(entry['topic_metadata']['type']),

@@ -146,6 +146,11 @@ class FileReading:
         self._content = ContentDigest()
         # Not in that digest yet: many are taken in at once sooner than one by one.
         self._fresh: list[tuple[bytes, int, bytes | memoryview]] = []
+        # Of all messages, the earliest and latest simulated time.
+        self._first_ns: int | None = None
+        self._last_ns = 0
+        # Messages that are filed under another time than they are stamped with.
+        self._misfiled = 0
         self._checked_ns = 0
         # Not matched by the messages before it; explained by a later one that is.
         self._checkpoints_fail: list[str] = []
@@ -220,6 +225,9 @@ class FileReading:
         self._fresh.append((name, record.log_time, record.data))
         number = self._counts.get(topic, 0)
         self._counts[topic] = number + 1
+        first_ns = record.log_time if self._first_ns is None else self._first_ns
+        self._first_ns = min(first_ns, record.log_time)
+        self._last_ns = max(self._last_ns, record.log_time)
         if not type_name:
             return None
         try:
@@ -230,6 +238,9 @@ class FileReading:
                 f'({err})'
             )
             return None
+        stamp = value.header.stamp
+        stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        self._misfiled += not stamp_ns == record.log_time == record.publish_time
         return StoredMessage(topic, record.data, value)
 
     def _note(self, record: Metadata) -> None:
@@ -326,7 +337,24 @@ class FileReading:
             return [(Integrity.ALTERED, 'the messages are not those that were recorded')]
         if metadata.content_sha256 and not self._checkpoint_seen:
             return [(Integrity.ALTERED, 'the checkpoints of the recording are missing')]
+        if self._misfiled:
+            note = f'{self._misfiled} messages are filed under another time than their own'
+            return [(Integrity.ALTERED, note)]
+        if self._told_otherwise(metadata):
+            return [(Integrity.ALTERED, f'{METADATA} tells of other messages than are there')]
         return []
+
+    def _told_otherwise(self, metadata: BagMetadata) -> bool:
+        """Tell whether topics, types, numbers or times of the messages are not as told."""
+        types = {topic: kind for kind, topic, _ in self._channels.values() if kind}
+        told = {name: topic.type_name for name, topic in metadata.topics.items()}
+        counts = {name: topic.count for name, topic in metadata.topics.items() if topic.count}
+        span_ns = (self._first_ns or 0, self._last_ns)
+        return (
+            counts != self._counts
+            or any(told.get(topic) != kind for topic, kind in types.items())
+            or span_ns != (metadata.first_ns, metadata.last_ns)
+        )
 
     def _changed(self, metadata: BagMetadata, cut: bool) -> Damage:
         size = self._file.stat().st_size

@@ -51,6 +51,9 @@ TOPICS: dict[str, str] = {
     EVENTS: 'aurora_msgs/msg/ScenarioEvent',
 }
 
+# Frame of everything in a recording.
+FRAME_ID = 'map'
+
 
 def time_ns(tick: int, dt_s: float) -> int:
     """Return the simulated time of a tick in nanoseconds."""
@@ -77,7 +80,7 @@ class MessageBuilder:
         stamp = self._definitions.create(
             'builtin_interfaces/msg/Time', sec=ns // 1_000_000_000, nanosec=ns % 1_000_000_000
         )
-        return self._definitions.create('std_msgs/msg/Header', stamp=stamp, frame_id='map')
+        return self._definitions.create('std_msgs/msg/Header', stamp=stamp, frame_id=FRAME_ID)
 
     def state(self, topic: str, tick: int, rows: FloatArray) -> Any:
         """Return a GroundState, UavState or UavCommand from packed rows."""

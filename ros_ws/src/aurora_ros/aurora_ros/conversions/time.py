@@ -9,9 +9,8 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from std_msgs.msg import Header
 
-from aurora_core.trace.messages import time_ns
+from aurora_core.trace.messages import FRAME_ID, time_ns
 
-FRAME_ID = 'map'
 _NANOSECONDS = 1_000_000_000
 
 
