@@ -110,15 +110,18 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
     source = Source(ids=source.ids, spans=source.spans, provenance=provenance)
     climbs = isinstance(event.action, UavAction) and event.action.do == 'ascend'
     drives = isinstance(event.action, AgentAction) and not _binds_before(inputs, event)
-    yield event_delay.within(inputs, event, latest_s, first_s if drives else 0.0, source)
+    # What is left of a climb before says nothing in the first moments of a wait.
+    waits = drives or (climbs and first_s >= inputs.tolerances.phase_change_s)
+    yield event_delay.within(inputs, event, latest_s, first_s if waits else 0.0, source)
     if not (drives or climbs):
         # Drivers slow down and speed up for many reasons, and a UAV has climbed at its take-off:
-        # what was before says nothing. What they do before a stated delay is over neither.
+        # what was before says nothing. What they do before a stated delay is over neither, and
+        # whoever did it then is late.
         yield event_delay.not_before(inputs, event.id, first_s, source)
     if isinstance(event.action, AgentAction) and event.action.do in _TAKES_SPEED_OFF:
-        waits = event_delay.driver_waits(inputs, event, source)
-        if waits is not None:
-            yield waits
+        kept = event_delay.driver_waits(inputs, event, source)
+        if kept is not None:
+            yield kept
     if isinstance(event.trigger, TimeTrigger):
         at = event.trigger.at_s
         if at.provenance is Provenance.EXPLICIT:

@@ -261,7 +261,7 @@ class EventTimes:
         Args:
             event_id: The event.
             start: Nothing before this tick counts.
-            begins_there: What a driver has been doing before `start` does not count either.
+            begins_there: What has been done since before `start` does not count either.
         """
         event = self.event(event_id)
         if event is None or event.action is None:
@@ -279,9 +279,9 @@ class EventTimes:
             return self._agent_action(
                 event.action, start, begins_there=begins_there, may_hold=done
             )
-        return self._uav_action(event.action, start)
+        return self._uav_action(event.action, start, begins_there=begins_there)
 
-    def _uav_action(self, action: UavAction, start: int) -> int | None:
+    def _uav_action(self, action: UavAction, start: int, *, begins_there: bool) -> int | None:
         if action.do == 'change_mission':
             own = [m.id for m in self.spec.missions if m.uav == action.uav]
             if action.mission not in own:
@@ -302,7 +302,7 @@ class EventTimes:
                 # To a lower altitude it goes down.
                 z_m = float(motion.altitude(self.view, uav)[start])
                 rate = -rate if action.altitude_m.value < z_m else rate
-            return first_tick(rate >= CLIMBS_MPS, start)
+            return _onset(rate >= CLIMBS_MPS, start, begins_there=begins_there)
         flight = self.rules.flights.get(action.uav)
         tick = None if flight is None else flight.landing_tick
         return tick if tick is not None and tick >= start else None

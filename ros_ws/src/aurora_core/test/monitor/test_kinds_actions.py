@@ -323,6 +323,18 @@ CLIMBED = (
     ),
     Row(id='e1.completed', make=lambda: _ascends(310, 99.0), reason=NEVER, what='climb'),
 )
+# Told to wait 8 s: who climbs after 1 s, and for 7.5 s, has not waited.
+CLIMBED_LATER = tuple(
+    Row(
+        id='e1.within',
+        make=lambda tick=tick: _later(  # type: ignore[misc]
+            _ascends(tick, AT_S), delay_s=number(8.0, Unit.SECOND, explicit=True)
+        ),
+        margin=9.0 - waited_s,
+        what='climb-after-a-wait',
+    )
+    for tick, waited_s in ((462, 8.1), (320, 1101 * 0.05))
+)
 # 3 m are allowed.
 RETURNED = (
     Row(id='e1.returned', make=lambda: _returns(310, AT_S, 2.0), margin=3.0 - 2.0),
@@ -450,6 +462,7 @@ ROWS = (
     ),
     *COMPLETED,
     *CLIMBED,
+    *CLIMBED_LATER,
     *DESCENDED,
     *RETURNED,
     *LANE,

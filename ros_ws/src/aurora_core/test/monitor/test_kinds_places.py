@@ -114,8 +114,30 @@ _PARKED = (
     ),
 )
 
+
+def _stops(tower_x: float, end_mps: float = 0.0) -> Case:
+    """car1 stands for 3 s, drives 100 m and stops, or not; it is to stop at the tower."""
+    speed = np.concatenate([np.zeros(60), np.full(200, 10.0), np.full(141, end_mps)])
+    case = ground_case(Behavior(kind=BehaviorKind.STOP, target=TOWER), speed)
+    case.world = replace(case.world, places=(NamedPlace(name=TOWER, x_m=tower_x, y_m=0.0),))
+    return case
+
+
+# Its front may be 15 m away, 2.25 m ahead of its middle. Where it set out it has not stopped.
+_STOPPED = (
+    Row(id='car1.stop.at', make=lambda: _stops(95.0), margin=17.25 - 5.0, what='there'),
+    Row(id='car1.stop.at', make=lambda: _stops(0.0), margin=17.25 - 100.0, what='elsewhere'),
+    Row(
+        id='car1.stop.at',
+        make=lambda: _stops(0.0, 5.0),
+        reason=Reason.PREMISE_NEVER,
+        what='drives-on',
+    ),
+)
+
 R = Relation
 ROWS = (
+    *_STOPPED,
     *_rows(R.AHEAD, 'car2', (20.0, 0.0, 20.0), (-20.0, 0.0, -20.0)),
     *_rows(R.BEHIND, 'car2', (-20.0, 0.0, 20.0), (20.0, 0.0, -20.0)),
     # 10 m beside the route are allowed.

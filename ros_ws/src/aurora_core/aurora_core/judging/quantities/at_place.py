@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from pydantic import FiniteFloat
 
+from aurora_core.document import omitted
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import (
     Context,
@@ -41,6 +42,7 @@ class AtPlace(Quantity):
         near_m: How far from the place its front or rear may be.
         still_mps: Only samples below this speed count; None: all of them.
         hold_s: For how long it has to be that slow.
+        moving_mps: Only from when it was once that fast: who has stopped there has come there.
     """
 
     name = QuantityName.HORIZONTAL_DISTANCE
@@ -49,6 +51,7 @@ class AtPlace(Quantity):
     near_m: FiniteFloat
     still_mps: FiniteFloat | None = None
     hold_s: FiniteFloat = 0.0
+    moving_mps: FiniteFloat | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return the greatest slack; who never stands is nowhere."""
@@ -56,13 +59,16 @@ class AtPlace(Quantity):
         name, place = condition.of
         there = view.present(name)
         if self.still_mps is not None:
-            slow = motion.speed(view, view.body(name)) < self.still_mps
-            there = there & _lasting(slow, round(self.hold_s / view.dt_s))
+            speed = motion.speed(view, view.body(name))
+            there = there & _lasting(speed < self.still_mps, round(self.hold_s / view.dt_s))
+            if self.moving_mps is not None:
+                there &= np.logical_or.accumulate(speed >= self.moving_mps)
         ticks = np.flatnonzero(there)
         if len(ticks) == 0:
             if not context.complete(condition):
                 return context.short(condition)
-            return Missing(reason=Reason.PREMISE_NEVER, story=f'{name} never stood')
+            story = f'{name} never {"stood" if self.moving_mps is None else "stopped"}'
+            return Missing(reason=Reason.PREMISE_NEVER, story=story)
         # From its nearest end: a bus at an intersection has its middle farther away than a car.
         reach_m = self.near_m + view.body(name).entry.length_m / 2.0
         left_m = reach_m - motion.horizontal_distance(view, name, place, on_road=True)
@@ -148,6 +154,7 @@ def implied(
             near_m=near_m,
             still_mps=t.stop_speed_mps if stands else None,
             hold_s=t.stop_hold_s if stands else 0.0,
+            moving_mps=t.moving_speed_mps if behavior.kind is BehaviorKind.STOP else None,
         ),
         source=Source(ids=(agent.id,), spans=(behavior.span or agent.span,)),
         every_sample=False,
