@@ -352,9 +352,13 @@ def _start(case: Case, agent: str, window: Window, value: float | None) -> Acted
         if onset == 0:
             return Acted(does_not(f'{agent} moves from t = 0'))
     else:
-        before = speed[: scene.tick(window.early_s) + 1]
+        # Who is told to stop before has driven; it stands for the wait that is stated.
+        halts = any(case.does(agent, do) for do in ('stop', 'yield'))
+        since_s = window.early_s if window.told_s is None else window.told_s + limits.ONSET_S
+        rests = scene.tick(min(since_s, window.early_s)) if halts else 0
+        before = speed[rests : scene.tick(window.early_s) + 1]
         if (before >= limits.STOPPED_MPS).any():
-            at = float(scene.times[np.flatnonzero(before >= limits.STOPPED_MPS)[0]])
+            at = float(scene.times[rests + np.flatnonzero(before >= limits.STOPPED_MPS)[0]])
             why = f'{agent} moves at {at:.2f} s, before {window.early_s:.2f} s'
             return Acted(does_not(why), at)
         onset = _onset(case, speed >= limits.STOPPED_MPS, window)

@@ -71,7 +71,7 @@ def _kind(case: Case, requirement: Requirement, body: str) -> Judged:
         case 'drive' | 'circulate' | 'walk' | 'emergency_run':
             return _moves(case, requirement, body, targets)
         case 'stop' | 'wait' | 'park':
-            return _stands(case, kind, body, targets)
+            return _stands(case, kind, body, targets, never=bool(requirement.get('negate')))
         case 'brake' | 'slow' | 'yield':
             action = {'do': kind, 'value_mps': requirement.get('speed_mps')}
             others = tuple(t for t in targets if case.scene.is_body(t))
@@ -137,7 +137,7 @@ def _near(case: Case, body: str, targets: list[str], most: float) -> BoolArray:
     return near
 
 
-def _stands(case: Case, kind: str, body: str, targets: list[str]) -> Judged:
+def _stands(case: Case, kind: str, body: str, targets: list[str], *, never: bool) -> Judged:
     scene = case.scene
     still = (scene.speed(body) < limits.STOPPED_MPS) & scene.present(body)
     first = runs_of(still)
@@ -150,6 +150,10 @@ def _stands(case: Case, kind: str, body: str, targets: list[str]) -> Judged:
         if targets:
             parts += [at_place(case, body, t) for t in targets[:1]]
         return all_of(parts)
+    moved = scene.speed(body) > limits.STARTED_MPS
+    if kind == 'stop' and never and moved.any():
+        # "Never stops": who has not set off yet has not stopped.
+        still = still & np.logical_or.accumulate(moved)
     longest = longest_s(still, scene.dt_s)
     why = f'{body} at rest for up to {longest:.1f} s'
     edge = limits.STOPPED_S - 2.0 * scene.dt_s

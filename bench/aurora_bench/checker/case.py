@@ -152,6 +152,14 @@ class Case:
         """Return the bodies that a name stands for; empty for a place."""
         return tuple(t for t in self.things(name) if self.scene.is_body(t))
 
+    def does(self, agent: str, do: str) -> bool:
+        """Return whether an annotated event makes a body do something."""
+        actions = [other.get('action') or {} for other in self.annotation.flat()]
+        return any(
+            a.get('do') == do and agent in self.bodies(a.get('agent') or a.get('uav'))
+            for a in actions
+        )
+
     def missing(self, *names: Any) -> str:
         """Return the first of the names that stands for nothing in the recording, or ''."""
         for name in names:

@@ -101,6 +101,16 @@ def _assign(case: Case, uav: str) -> dict[int, Flown]:
 
 
 def _judge(case: Case, requirement: Requirement, uav: str, segment: Segment) -> Judged:
+    bounds = [
+        float(other['value'])
+        for other in case.annotation.flat()
+        if other.get('quantity') == 'hover_drift'
+        and other.get('op') in ('<', '<=')
+        and not other.get('negate')
+        and uav in [body for name in other.get('of') or () for body in case.bodies(name)]
+    ]
+    if bounds:
+        requirement = {**requirement, missions.DRIFT: min(bounds)}
     if case.unknown_place(requirement.get('target')):
         known = missions.judge(
             flight(case, {**requirement, 'target': None}, uav, segment),

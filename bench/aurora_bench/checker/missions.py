@@ -41,6 +41,8 @@ HOVER_DOUBT_M = 1.0
 HOVER_POINT_DOUBT_M = 0.5
 # Marks the reading of a tracking without a stated standoff as one from above.
 ABOVE = 'from above'
+# A stated bound on the drift of a hover, m.
+DRIFT = 'stated drift'
 
 
 def judge(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
@@ -138,9 +140,12 @@ def _hover_capture(
         band = max(band, asked.high - level, level - asked.low)
     away = np.linalg.norm(scene.xy(flight.uav)[flight.ticks] - _hover_point(flight), axis=1)
     drift = limits.HOVER_DRIFT_WIND_M if scene.windy else limits.HOVER_DRIFT_CALM_M
+    # A stated bound takes the place of the one that is not.
+    drift = min(drift, float(requirement.get(DRIFT, drift)))
     at_level = (np.abs(height - level) <= band) | is_free(flight, requirement)
     early = np.flatnonzero(at_level & (away <= drift + HOVER_POINT_DOUBT_M))
-    late = np.flatnonzero(at_level & (away <= drift - HOVER_POINT_DOUBT_M))
+    surely = max(drift - HOVER_POINT_DOUBT_M, drift / 2.0)
+    late = np.flatnonzero(at_level & (away <= surely))
     first = flight.segment.start
     if not len(early):
         return None, None

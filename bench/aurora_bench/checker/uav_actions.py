@@ -171,12 +171,15 @@ def return_home(case: Case, uav: str, window: Window) -> Acted:
 
 
 def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> Acted:
-    """Return whether a UAV begins to climb in time and reaches the altitude."""
+    """Return whether a UAV begins to climb, or to sink, in time and reaches the altitude."""
     scene = case.scene
-    z = scene.altitude(uav)
-    rate = np.gradient(z, scene.dt_s)
     goal = action.get('altitude_m')
     first = 0 if window.free else scene.tick(window.early_s)
+    z = scene.altitude(uav)
+    # To an altitude below it, it sinks: the same, upside down.
+    sinks = goal is not None and not window.free and z[first] > float(goal)
+    z = -z if sinks else z
+    rate = np.gradient(z, scene.dt_s)
     last = len(z) if window.free else scene.tick(window.last_s) + 1 + STEPS
     climbing = np.flatnonzero(rate[first:last] > 0.15)
     if goal is None:
@@ -186,11 +189,11 @@ def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> A
         start = float(scene.times[first + climbing[0]])
         rest = z[first + climbing[0] :]
         return Acted(graded(float(rest.max() - rest[0]) >= 2.0, True, why), start, start)
-    level = float(goal)
-    slack = limits.tolerance(limits.ALTITUDE, level)
+    slack = limits.tolerance(limits.ALTITUDE, float(goal))
+    level = -float(goal) if sinks else float(goal)
     near = np.abs(z - level) <= slack
     if not window.free and near[scene.tick(window.early_s) : scene.tick(window.late_s) + 1].all():
-        return Acted(holds(f'{uav} is at {level:g} m'), window.late_s, window.late_s)
+        return Acted(holds(f'{uav} is at {goal:g} m'), window.late_s, window.late_s)
     if not len(climbing):
         if not window.free and window.last_s > scene.end_s:
             return Acted(cannot_tell('the recording ends before'))
@@ -208,12 +211,13 @@ def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> A
         reached, begin = reached - (later - begin), later
     start = float(scene.times[begin])
     if not len(reached):
-        why = f'{uav} climbs from {start:.2f} s, highest {z[begin:].max():.2f} of {level:g} m'
+        most = abs(float(z[begin:].max()))
+        why = f'{uav} climbs from {start:.2f} s, gets to {most:.2f} of {goal:g} m'
         return Acted(does_not(why), start)
     done = float(scene.times[begin + reached[0]])
     # Half of the least climb rate that a limit allows is the slowest that counts.
     bound = abs(level - float(z[begin])) / 1.0 + 2.0
-    why = f'{uav} climbs from {start:.2f} s, at {level:g} m at {done:.2f} s'
+    why = f'{uav} climbs from {start:.2f} s, at {goal:g} m at {done:.2f} s'
     return Acted(graded(done - start <= bound, window.free, why), start, done)
 
 
@@ -240,15 +244,19 @@ def first_captured(case: Case, uav: str) -> tuple[int, int] | None:
         variation=case.variation,
         until=found[0].end,
     )
-    early = missions.captured_tick(whole, own[0])
+    asked = own[0]
+    if asked.get('altitude_m') is None:
+        # The altitude with which it begins: a climb may change it later.
+        asked = {**asked, 'altitude_m': float(case.scene.altitude(uav)[found[0].start])}
+    early = missions.captured_tick(whole, asked)
     if early is None:
         return None
-    if own[0].get('mode') == 'navigate':  # the first point of a route shows by the turn there
+    if asked.get('mode') == 'navigate':  # the first point of a route shows by the turn there
         return found[0].start, early
-    if own[0].get('mode') != 'hover':
+    if asked.get('mode') != 'hover':
         # Unstated, it may be above its target that it has to be.
-        above = missions.captured_tick(whole, {**own[0], missions.ABOVE: True})
-        bare = own[0].get('standoff_m') is None and own[0].get('side') is None
+        above = missions.captured_tick(whole, {**asked, missions.ABOVE: True})
+        bare = asked.get('standoff_m') is None and asked.get('side') is None
         return early, max(early, above) if bare and above is not None else early
     still = np.flatnonzero(case.scene.speed(uav)[early : found[0].end] < limits.STOPPED_MPS)
     return early, early + int(still[0]) if len(still) else found[0].end

@@ -33,6 +33,21 @@ def test_driving_and_standing(make_stage: Any) -> None:
 
 
 @pytest.mark.parametrize(
+    ('speed', 'outcome'),
+    [
+        ([0, 0, 8, 8], 'holds'),
+        ([0, 0, 8, 0], 'does_not'),
+        ([0, 0, 0, 0], 'does_not'),
+    ],
+)
+def test_who_has_not_set_off_yet_has_not_stopped(
+    stage: Any, speed: list[float], outcome: str
+) -> None:
+    stage.drive('car1', 'car', lambda t: np.interp(t, [0, 10, 12, 40], speed), x=-490.0)
+    assert stage.says(_does('stop', negate=True)) == outcome
+
+
+@pytest.mark.parametrize(
     ('driven', 'asked', 'outcome'),
     [(8.0, 8.0, 'holds'), (8.0, 9.0, 'holds'), (8.0, 9.5, 'does_not'), (20.0, 18.2, 'holds')],
 )

@@ -379,6 +379,47 @@ def test_ascend(stage: Any, top: float, outcome: str) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ('bottom', 'outcome'), [(20.0, 'holds'), (26.0, 'does_not'), (60.0, 'does_not')]
+)
+def test_to_a_lower_altitude_it_sinks(stage: Any, bottom: float, outcome: str) -> None:
+    stage.uav('drone', lambda t: (0, 0, np.interp(t, [20.5, 32], [40, bottom])))
+    sink = {'do': 'ascend', 'uav': 'drone', 'altitude_m': 20}
+    assert stage.says(_event(AT_20, sink)) == outcome
+
+
+@pytest.mark.parametrize(('starts_s', 'outcome'), [(40.0, 'holds'), (33.0, 'does_not')])
+def test_who_starts_again_has_driven_before_its_stop(
+    stage: Any, starts_s: float, outcome: str
+) -> None:
+    """It stops at 20 s, stands from 22 s on, and is to start 18 s after that."""
+    stage.drive(
+        'car1',
+        'car',
+        lambda t: np.interp(t, [20, 22, starts_s, starts_s + 4], [8, 0, 0, 8]),
+        x=-490.0,
+    )
+    stop = {**_event(AT_20, _does('stop')), 'ref': 'e1'}
+    again = {
+        'kind': 'event',
+        'ref': 'e2',
+        'trigger': {'on': 'event_done', 'event': 'e1', 'after_s': 18},
+        'action': {'do': 'start', 'agent': 'car1'},
+    }
+    assert stage.says(again, stop) == outcome
+
+
+def test_a_track_is_captured_at_the_altitude_with_which_it_begins(stage: Any) -> None:
+    """It loses sight at 20 s and climbs then; it has not to wait until it is up."""
+    stage.ground('bus1', 'bus', 50.0, 0.0)
+    rises = lambda t: 30.0 + np.clip(3.0 * (t - 20.3), 0.0, 30.0)  # noqa: E731
+    stage.uav('drone', lambda t: (50, np.where((t > 20) & (t < 22), 100, -10), rises(t)))
+    track = {'kind': 'mission', 'ref': 'm1', 'uav': 'drone', 'mode': 'track', 'target': 'bus1'}
+    lost = {'on': 'occluded', 'observer': 'drone', 'target': 'bus1'}
+    climb = _event(lost, {'do': 'ascend', 'uav': 'drone', 'altitude_m': 60})
+    assert 'climbs from 20' in stage.answer(climb, track).why
+
+
 def test_land_return_and_change_of_mission(stage: Any) -> None:
     stage.uav('drone', lambda t: (np.where(t < 30, 210, 0), np.where(t < 30, 15, 0), 40),
               ends=(30.0, 45.0))  # fmt: skip

@@ -229,6 +229,25 @@ def test_tracking_behind_is_not_ahead(stage: Any) -> None:
     assert stage.says({**TRACK, 'side': 'ahead'}) == 'does_not'
 
 
+@pytest.mark.parametrize(('stated_m', 'outcome'), [(None, 'does_not'), (0.4, 'holds')])
+def test_a_hover_begins_inside_of_its_stated_drift(
+    stage: Any, stated_m: float | None, outcome: str
+) -> None:
+    """It comes from 1.9 m away at 10 s to its point at 20 s and stays for 30 s."""
+    stage.uav('drone', lambda t: (np.interp(t, [10, 20], [1.4, 0.0]), 0, 40.0))
+    hover = {
+        'kind': 'mission',
+        'ref': 'm1',
+        'uav': 'drone',
+        'mode': 'hover',
+        'altitude_m': 40,
+        'duration_s': 32,
+    }
+    drift = {'kind': 'condition', 'quantity': 'hover_drift', 'of': ['drone'], 'op': '<='}
+    bound = [] if stated_m is None else [{**drift, 'value': stated_m}]
+    assert stage.says(hover, *bound) == outcome
+
+
 def test_standing_still_is_not_tracking(stage: Any) -> None:
     stage.drive('car1', 'car', 8.0)
     stage.uav('drone', lambda t: (100, 0, 40))
