@@ -412,8 +412,9 @@ def test_who_starts_again_has_driven_before_its_stop(
 def test_a_track_is_captured_at_the_altitude_with_which_it_begins(stage: Any) -> None:
     """It loses sight at 20 s and climbs then; it has not to wait until it is up."""
     stage.ground('bus1', 'bus', 50.0, 0.0)
-    rises = lambda t: 30.0 + np.clip(3.0 * (t - 20.3), 0.0, 30.0)  # noqa: E731
-    stage.uav('drone', lambda t: (50, np.where((t > 20) & (t < 22), 100, -10), rises(t)))
+    hidden = (stage.t > 20) & (stage.t < 22)
+    height_m = 30.0 + np.clip(3.0 * (stage.t - 20.3), 0.0, 30.0)
+    stage.uav('drone', lambda _: (50, np.where(hidden, 100, -10), height_m))
     track = {'kind': 'mission', 'ref': 'm1', 'uav': 'drone', 'mode': 'track', 'target': 'bus1'}
     lost = {'on': 'occluded', 'observer': 'drone', 'target': 'bus1'}
     climb = _event(lost, {'do': 'ascend', 'uav': 'drone', 'altitude_m': 60})
