@@ -34,7 +34,7 @@ from aurora_core.spec.scenario import (
 )
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind
 
-# What persons do, beside standing; crossing a street is for them alone.
+# What persons do, beside standing; walking and crossing a street are for them alone.
 _ON_FOOT = frozenset(
     {
         BehaviorKind.CROSS,
@@ -122,7 +122,7 @@ def _can_do(spec: ScenarioSpec, agent: GroundAgent, behavior: Behavior) -> bool:
         return kind in _ON_FOOT
     if kind in ONCE:
         return is_once(spec, agent, behavior)
-    return kind is not BehaviorKind.CROSS
+    return kind not in (BehaviorKind.CROSS, BehaviorKind.WALK)
 
 
 def _can_act(action: EventAction, spec: ScenarioSpec) -> bool:

@@ -37,7 +37,13 @@ from aurora_core.judging.quantity import OfMission, OfSight, PerSample
 from aurora_core.judging.series import StatedSeries
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.spec.parameter import Bound
-from aurora_core.spec.scenario import StatedCondition, UavMission, is_place
+from aurora_core.spec.scenario import (
+    AgentAction,
+    ScenarioSpec,
+    StatedCondition,
+    UavMission,
+    is_place,
+)
 from aurora_core.spec.vocabulary import MissionMode
 
 # Quantities with a value at every sample: the worst one, a stretch or a share counts.
@@ -280,16 +286,27 @@ def _stretched(target: Target, stated: StatedCondition) -> Target:
     return replace(target, threshold=max(target.threshold, stated.hold_s.value))
 
 
+def _stops(spec: ScenarioSpec, name: str) -> bool:
+    """Tell whether an event makes somebody stop, who slows down for other reasons, too."""
+    actions = [event.action for event in spec.events if event.id == name]
+    return any(isinstance(a, AgentAction) and a.do == 'stop' for a in actions)
+
+
 def _event_time(inputs: Inputs, stated: StatedCondition) -> Condition:
     only(stated)
     if len(stated.of) != 1 or stated.of[0] not in {event.id for event in inputs.spec.events}:
         raise _unknown(stated)
+    target = target_of(inputs.tolerances, stated)
     return condition(
         id=f'{stated.id}.holds',
         sentence=sentence_of(stated),
         of=stated.of,
-        target=target_of(inputs.tolerances, stated),
-        arguments=EventTime(**inputs.of_event(stated.of[0]), part='action'),
+        target=target,
+        arguments=EventTime(
+            **inputs.of_event(stated.of[0]),
+            part='action',
+            done=target.op in ('<', '<=') and _stops(inputs.spec, stated.of[0]),
+        ),
         source=source_of(stated),
         every_sample=False,
     )

@@ -70,8 +70,10 @@ def test_a_behaviour_that_is_one_action(scene: Scene, kind: str) -> None:
     assert f'van1.{kind}' in asked.judged()
 
 
-@pytest.mark.parametrize(('kind', 'target'), [('cross', 'ego'), ('yield', 'crosswalk')])
-def test_a_behaviour_that_nobody_shows(scene: Scene, kind: str, target: str) -> None:
+@pytest.mark.parametrize(
+    ('kind', 'target'), [('cross', 'ego'), ('walk', None), ('yield', 'crosswalk')]
+)
+def test_a_behaviour_that_nobody_shows(scene: Scene, kind: str, target: str | None) -> None:
     asked = scene.with_van(behaviors=[{'kind': kind, 'target': target}])
     assert asked.missing() == (f'van1: behaviour {kind}',)
     assert not {i for i in asked.judged() if i.startswith(f'van1.{kind}')}

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kind_rows import Row, cut
+from kind_rows import Row, cut, stated
 from trace_builder import Flight, FloatArray, flight, number, world
 from trace_cases import Case, facts_of, ground_case, hover_case, mission, spec
 
@@ -324,16 +324,26 @@ CLIMBED = (
     Row(id='e1.completed', make=lambda: _ascends(310, 99.0), reason=NEVER, what='climb'),
 )
 # Told to wait 8 s: who climbs after 1 s, and for 7.5 s, has not waited.
+WAIT_S = number(8.0, Unit.SECOND, explicit=True)
 CLIMBED_LATER = tuple(
-    Row(
-        id='e1.within',
-        make=lambda tick=tick: _later(  # type: ignore[misc]
-            _ascends(tick, AT_S), delay_s=number(8.0, Unit.SECOND, explicit=True)
-        ),
-        margin=9.0 - waited_s,
-        what='climb-after-a-wait',
+    Row(id='e1.within', make=make, margin=9.0 - waited_s, what='climb-after-a-wait')
+    for make, waited_s in (
+        (lambda: _later(_ascends(462, AT_S), delay_s=WAIT_S), 8.1),
+        (lambda: _later(_ascends(320, AT_S), delay_s=WAIT_S), 1101 * 0.05),
     )
-    for tick, waited_s in ((462, 8.1), (320, 1101 * 0.05))
+)
+
+
+def _stops_by(latest_s: float) -> Case:
+    """It slows down at 5 s and stands from 17.65 s on; nobody says when it has to begin."""
+    speed = np.maximum(10.0 - 0.1 * np.maximum(TICK - 100, 0), 8.0)
+    case = _later(_car('stop', np.where(TICK > 352, 0.0, speed), AT_S), trigger=None)
+    return stated(case, 'event_time', ('e1',), '<=', latest_s)
+
+
+STOPPED_BY = (
+    Row(id='c1.holds', make=lambda: _stops_by(25.0), margin=25.0 - 17.65, what='stops-by'),
+    Row(id='c1.holds', make=lambda: _stops_by(15.0), margin=15.0 - 17.65, what='stops-by'),
 )
 # 3 m are allowed.
 RETURNED = (
@@ -463,6 +473,7 @@ ROWS = (
     *COMPLETED,
     *CLIMBED,
     *CLIMBED_LATER,
+    *STOPPED_BY,
     *DESCENDED,
     *RETURNED,
     *LANE,

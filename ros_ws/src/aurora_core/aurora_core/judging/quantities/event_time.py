@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from aurora_core.document import omitted
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, at_tick
 from aurora_core.judging.happening import moment, never_happened
@@ -23,16 +24,20 @@ class EventTime(OfEvent):
 
     Attributes:
         part: What of the event.
+        done: When its action is complete: who has to have stopped by then stands.
     """
 
     name = QuantityName.EVENT_TIME
     kind: Literal['event_time'] = 'event_time'
     part: Part
+    done: bool = omitted(False)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time."""
         tick = context.events.trigger_tick(self.event)
-        if self.part == 'action':
+        if self.done:
+            tick = context.events.completion_tick(self.event)
+        elif self.part == 'action':
             tick = moment(context, self.event)
         if tick is None:
             return never_happened(context, condition, f'{self.event} never happened')
@@ -42,7 +47,8 @@ class EventTime(OfEvent):
             possible = context.events.possible_tick(self.event, due)
             tick -= 0 if possible is None else possible - due
         value = context.time_s(tick)
-        return at_tick(tick, value, f'{self.event} happened at {value:.2f} s', ('events',))
+        happened = 'was complete' if self.done else 'happened'
+        return at_tick(tick, value, f'{self.event} {happened} at {value:.2f} s', ('events',))
 
 
 def happens(inputs: Inputs, event: Event, part: Part, source: Source) -> Condition:

@@ -39,6 +39,8 @@ _TRANSITIVE = frozenset(
     }
 )
 _OWN_NUMBER = re.compile(r'\W(?:\d+|[A-Za-z])$')
+# What is left of a noun that is told behind the next one.
+_HALF = re.compile(r'(?:a|an|one|the) \w+$', re.IGNORECASE)
 # Of whom one is aware before something happens to them, which the next clause tells.
 _AWAITS = frozenset({'see', 'wait'})
 _ENDED = frozenset({'no longer'})
@@ -106,6 +108,25 @@ def meeting(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             overtakes = behavior.kind is BehaviorKind.OVERTAKE
             if overtakes and behavior.target in comes_to and behavior.span is not None:
                 yield behavior.span
+
+
+def crowded(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`the motorcycle escapes the police car`: `escapees`, corrected where a verb has to stand."""
+    text = spec.prompt.lower()
+    for before, atom, behind in zip(atoms, atoms[1:], atoms[2:], strict=False):
+        actors = before.is_actor and atom.is_actor and behind.is_actor
+        if actors and atom.words not in text:
+            yield Span(start=atom.start, end=atom.end)
+
+
+def halved(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`a red and a blue car drive`: the red one is a car that drives, too."""
+    for clause in spec.clauses:
+        if clause.status is not ClauseStatus.NO_REQUIREMENT or not _HALF.match(clause.text):
+            continue
+        behind = next((a for a in atoms if a.start >= clause.span.end), None)
+        if behind is not None and behind.kind is AtomKind.CONJUNCTION:
+            yield clause.span
 
 
 def listed(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -29,6 +30,7 @@ _CLIMBS = frozenset({'ascend', 'descend'})
 # Who does nothing in the air, and what a distance is measured from.
 _GROUND = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO})
 _FROM = ('from', 'away from', 'of')
+_APART = re.compile(r'\b(?:apart|away|close|closer|farther|further|near|nearer)\b')
 _STAYS = ('holds', 'keeps', 'remains', 'stays', 'waits')
 # Behind these a verb has the subject of the one before.
 _JOINS = frozenset({AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN})
@@ -101,12 +103,19 @@ def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[S
 def heights_from_somebody(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`tracks a van and is at most 35 m from it` that became an altitude of at most 35 m."""
     heights = [c.value.span for c in spec.conditions if c.quantity == QuantityName.ALTITUDE]
-    for measure, behind in pairwise(atoms):
-        if measure.measure is None or not behind.words.startswith(_FROM):
-            continue
-        own = Span(start=measure.start, end=measure.end)
-        if any(span is not None and meet(span, own) for span in heights):
-            yield over(measure, behind)
+    for sentence in sentences(atoms):
+        for k, measure in enumerate(sentence):
+            if measure.measure is None:
+                continue
+            own = over(measure, measure)
+            if not any(span is not None and meet(span, own) for span in heights):
+                continue
+            behind = next(iter(sentence[k + 1 :]), measure)
+            before = spec.prompt[sentence[max(0, k - 1)].start : measure.end].lower()
+            if behind.words.startswith(_FROM):
+                yield over(measure, behind)
+            elif _APART.search(before):
+                yield own
 
 
 def stays_of_others(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

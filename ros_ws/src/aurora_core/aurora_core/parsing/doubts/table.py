@@ -16,7 +16,9 @@ from collections.abc import Callable, Iterable, Sequence
 
 from aurora_core.parsing.atoms import Atom
 from aurora_core.parsing.doubts.bodies import (
+    crowded,
     gapped,
+    halved,
     idle,
     listed,
     meeting,
@@ -66,6 +68,8 @@ _CHECKS: tuple[_Check, ...] = (
     strangers,
     idle,
     listed,
+    crowded,
+    halved,
     meeting,
     places_without_part,
     twins,

@@ -41,8 +41,10 @@ from aurora_core.spec.vocabulary import (
     ClauseStatus,
     MissionMode,
     Pattern,
+    Weather,
 )
 
+_WINDLESS = frozenset({Weather.CLEAR, Weather.CLOUDY, Weather.FOG})
 _PAUSES = ' \t\n,;.:-('
 _COMPARING = frozenset({'above', 'below', 'beyond', 'under', 'within'})
 _PLACES = frozenset({'beyond', 'within'})
@@ -396,6 +398,12 @@ def _messaged(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(isinstance(e.trigger, MessageTrigger) for e in spec.events)
 
 
+def _no_wind(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A weather that has no wind of its own, and none that is told."""
+    told = spec.world.wind_mps is not None or spec.world.wind is not None
+    return not told and spec.world.weather in _WINDLESS
+
+
 def _lanes(spec: ScenarioSpec, clause: Clause) -> bool:
     """A pattern that goes to and fro."""
     return any(m.pattern is Pattern.LAWNMOWER for m in spec.missions if m.id in clause.ids)
@@ -437,6 +445,7 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'earlier': _earlier,
     'sided': _sided,
     'lanes': _lanes,
+    'no_wind': _no_wind,
     'no_event': _no_event,
     'mutual': _mutual,
     'messaged': _messaged,
