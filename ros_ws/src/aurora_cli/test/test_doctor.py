@@ -442,26 +442,6 @@ def test_maps(planted: Planted) -> None:
     assert 'not a folder' in finding.found
 
 
-def test_records_of_other_vehicles_and_maps(planted: Planted) -> None:
-    """Every command is refused with them: the doctor says so before anything is tried."""
-    config = planted.folder / 'config'
-    for name in ('knowledge', 'maps'):
-        unused = shutil.ignore_patterns('helsinki', 'downtown')
-        shutil.copytree(config_path(name), config / name, ignore=unused)
-    for file in config_path().glob('*.json'):
-        shutil.copy(file, config)
-    planted.environment['AURORA_CONFIG_DIR'] = str(config)
-    assert data.records(planted.machine()) == []
-    arrays = config / 'knowledge' / 'maps' / 'junction' / 'arrays.npz'
-    arrays.write_bytes(b'')
-    assert only(data.records(planted.machine())).fix.endswith('aurora map measure junction')
-    text = (config / 'multirotor.json').read_text()
-    (config / 'multirotor.json').write_text(text.replace('"mass_kg": 1.5', '"mass_kg": 1.6'))
-    finding = only(data.records(planted.machine()))
-    assert 'measured with multirotor_sha256' in finding.found
-    assert 'aurora map measure' in finding.fix
-
-
 @pytest.fixture
 def server() -> Iterator[int]:
     with socket.create_server(('127.0.0.1', 0)) as listener:

@@ -15,6 +15,9 @@ from typing import Any
 import pytest
 
 from aurora_cli import installed
+from aurora_cli.doctor import data
+from aurora_cli.doctor.machine import Machine
+from aurora_cli.doctor.run import CHECKS
 from aurora_cli.map_measure import measure
 from aurora_cli.testing.small_maps import xodr
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_root
@@ -74,9 +77,9 @@ def test_the_shipped_records_are_what_is_measured(config: Path, call: Call) -> N
         assert {'vehicles', 'multirotor', 'spawn points', 'walks'} <= facts['seconds'].keys()
         assert 'aurora: walks' in done.err
     assert set(_files(knowledge)) == set(shipped)
-    for name, data in _files(knowledge).items():
+    for name, found in _files(knowledge).items():
         # Another zlib may pack the arrays differently; their digest is in the records.
-        assert data == shipped[name] or name.endswith('.npz'), name
+        assert found == shipped[name] or name.endswith('.npz'), name
 
 
 def test_measuring_again_changes_no_byte(config: Path, call: Call) -> None:
@@ -314,3 +317,18 @@ def test_doctor_and_show_tell_what_was_measured(config: Path, call: Call) -> Non
     assert 'aurora map measure junction' in done.out
     assert call('map', 'measure', 'junction').code == 0
     assert 'aurora map measure junction' not in call('map', 'doctor', 'junction').out
+
+
+def test_the_doctor_finds_records_of_something_else(config: Path) -> None:
+    """Every command is refused with them: it says so before anything is tried."""
+    assert ('records', data.records) in CHECKS
+    assert data.records(Machine()) == []
+    arrays = config / 'knowledge' / 'maps' / 'junction' / 'arrays.npz'
+    kept = arrays.read_bytes()
+    arrays.write_bytes(b'')
+    (of_map,) = data.records(Machine())
+    assert of_map.fix == 'measure again: aurora map measure junction'
+    arrays.write_bytes(kept)
+    _edit(config / 'multirotor.json', '"mass_kg": 1.5', '"mass_kg": 1.6')
+    (of_vehicles,) = data.records(Machine())
+    assert 'measured with multirotor_sha256' in of_vehicles.found
