@@ -88,7 +88,14 @@ def _scribble(path: Path) -> None:
     )
     ring = ''.join(f'<nd ref="{k + 10}"/>' for k in (*range(_CORNERS), 0))
     building = f'<way id="99">{ring}<tag k="building" v="yes"/></way>'
-    path.write_bytes(osm(_NODES.format(60.001), nodes, _ROAD.format('A'), building))
+    # Streets round a block, so that vehicles have somewhere to drive.
+    corners = ''.join(
+        f'<node id="{k}" lat="{lat}" lon="{lon}"/>'
+        for k, (lat, lon) in enumerate(((60, 24), (60.002, 24), (60.002, 24.004), (60, 24.004)), 1)
+    )
+    block = ''.join(f'<nd ref="{k}"/>' for k in (1, 2, 3, 4, 1))
+    street = f'<way id="9">{block}<tag k="highway" v="primary"/></way>'
+    path.write_bytes(osm(corners, nodes, street, building))
 
 
 def _road(length_m: str, lanes: int) -> Make:

@@ -19,7 +19,7 @@ Point = tuple[float, float]
 _NAMES = ('name', 'name:en')
 # Outlines cross themselves by mistake, here and there; to mend them takes longer with each.
 _MOST_CROSSINGS = 1000
-_AT_ONCE = 64
+_AT_ONCE = 4
 _TOWNS = ('city', 'town', 'village', 'suburb', 'borough')
 
 
