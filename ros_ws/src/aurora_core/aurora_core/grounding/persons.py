@@ -435,6 +435,9 @@ class PersonPlacer:
         x, y, _, _ = site.origin()
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
+        names += [trigger.place for trigger in arrivals(spec, agent)]
+        # Who is to arrive somewhere walks there from a little way off.
+        arrives = any(True for _ in arrivals(spec, agent))
         stated = {
             p.of: max(0.0, p.distance_m.inside(self._style.inside_bound_m))
             for p in agent.placements
@@ -451,11 +454,15 @@ class PersonPlacer:
                 if path is None:
                     return None
                 lane = self._map.network.lane(path.lane_id)
-                back_m = KERB_M + NEXT_M * number
+                back_m = NEXT_M * number + (_ARRIVES_FROM_M if arrives else KERB_M)
                 walk = walk_along(self._map.network, path.edge_ids[:1])
                 return None if walk is None else Spot(walk, max(0.0, lane.arc_length_m - back_m))
             if name is not None and has_point(name):
-                return nearest_spot(self._map.network, self._places.point(name, (x, y)), number)
+                there = self._places.point(name, (x, y))
+                spot = nearest_spot(self._map.network, there, number)
+                if spot is None or not arrives:
+                    return spot
+                return replace(spot, arc_m=max(0.0, spot.arc_m - _ARRIVES_FROM_M))
         if site.seated:
             front = max(site.seated, key=lambda s: s.arc_m)
             return self._along(front, DEFAULT_GAP_M, number)
@@ -471,6 +478,8 @@ class PersonPlacer:
 def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether a person is to leave its place at some time."""
     if crosses(spec, agent) or sets_off(spec.events, agent.id) is not None:
+        return True
+    if any(True for _ in arrivals(spec, agent)):
         return True
     return bool(agent.behaviors) and not stands(agent)
 

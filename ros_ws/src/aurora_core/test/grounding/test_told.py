@@ -9,6 +9,7 @@ from math import dist
 
 import pytest
 
+from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
@@ -88,3 +89,22 @@ def test_whom_a_uav_reports_is_on_its_street(agents: Agents) -> None:
     van, ego = found['van1'], found['ego']
     assert dist((van.x_m, van.y_m), (ego.x_m, ego.y_m)) < 100.0
     assert van.release is ReleaseOn.CAPTURED
+
+
+@pytest.mark.parametrize('place', ['the crosswalk', 'the intersection', 'Ridge School'])
+def test_who_is_to_arrive_on_foot_walks_there_from_a_little_way_off(
+    place: str, agents: Agents, map_of: Maps
+) -> None:
+    found = agents(
+        f'My car drives. A drone hovers over {place} at 40 m. When a pedestrian arrives at '
+        f'{place}, the drone alerts my car.'
+    )
+    walker = found['pedestrian1']
+    assert walker.arrival_position_m is not None  # it goes
+    name = place.removeprefix('the ')
+    known = f'landmark:{name}' if name == 'Ridge School' else name
+    here = (walker.x_m, walker.y_m)
+    point = MapPlaces(map_of('downtown')).point(known, here)
+    assert dist(here, point) > 15.0
+    line = Polyline(walker.route_xy_m)
+    assert dist(line.at(line.project(*point)[0])[:2], point) < dist(here, point) - 5.0
