@@ -13,7 +13,7 @@ import numpy as np
 from aurora_bench.checker import missions
 from aurora_bench.checker.answers import Judged, Outcome, all_of, cannot_tell, does_not
 from aurora_bench.checker.case import Case, Requirement
-from aurora_bench.checker.events import happened
+from aurora_bench.checker.events import STATES, happened
 from aurora_bench.checker.flight import Flight, asked_altitude
 from aurora_bench.checker.phases import Segment, segments
 
@@ -141,7 +141,8 @@ def flight(case: Case, requirement: Requirement, uav: str, segment: Segment) -> 
 def _climbs(case: Case, requirement: Requirement, uav: str, segment: Segment) -> Iterator[int]:
     """Yield when annotated climbs begin while a mission is flown.
 
-    What triggers one before that does so once the UAV has come to the altitude of the mission.
+    What somebody does that triggers one before that does so once the UAV has come to the altitude
+    of the mission; a clock does not wait.
     """
     for event in case.annotation.flat():
         action = event.get('action') or {}
@@ -152,8 +153,9 @@ def _climbs(case: Case, requirement: Requirement, uav: str, segment: Segment) ->
         start = happened(case, event).start_s
         if start is None or case.scene.tick(start) >= segment.end:
             continue
-        if case.scene.tick(start) > segment.start:
-            yield case.scene.tick(start)
+        waits = (event.get('trigger') or {}).get('on') in STATES
+        if case.scene.tick(start) > segment.start or not waits:
+            yield max(case.scene.tick(start), segment.start + 1)
         elif (arrived := _arrival(case, requirement, uav, segment)) is not None:
             yield arrived + 1
 

@@ -448,6 +448,18 @@ def test_a_climb_does_not_end_a_hover_of_any_height(stage: Any) -> None:
     assert stage.says({**free, 'duration_s': 50}, _climb(30)) == 'does_not'
 
 
+def test_a_clock_does_not_wait_for_a_mission_to_be_at_its_altitude(stage: Any) -> None:
+    """On the way to its point it is told to climb: at 50 m it was on that way alone."""
+
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        return np.interp(t, [10, 14], [240, 210]), 30, np.interp(t, [11, 18], [50, 70])
+
+    stage.uav('drone', motion)
+    free = {k: v for k, v in HOVER.items() if k != 'duration_s'}
+    assert stage.says(free, _climb(11)) == 'does_not'
+    assert stage.says({**free, 'altitude_m': 70}) == 'holds'
+
+
 def test_a_climb_leaves_a_route_its_course(stage: Any) -> None:
     corners = [(0.0, 0.0), (80.0, 0.0), (80.0, 40.0), (0.0, 40.0), (0.0, 0.0)]
     course = _route(corners, 50.0, 8.0, 12.0)
@@ -471,6 +483,10 @@ def test_a_climb_leaves_a_route_its_course(stage: Any) -> None:
     # What lets the other one climb is there before its mission: it had come to its altitude.
     asked, climb = {**asked, 'uav': 'early'}, _climb(9.9)
     climb['action']['uav'] = 'early'
+    climb['trigger'] = {'on': 'distance_below', 'a': 'car1', 'b': 'car2', 'value_m': 20}
+    x = np.interp(stage.t, [0.0, 9.9], [0.0, 80.5])
+    stage.ground('car1', 'car', x, -1.65)
+    stage.ground('car2', 'car', 100.0, -1.65)
     assert stage.says(asked, climb) == 'holds'
     assert stage.says({**asked, 'altitude_m': 40}, climb) == 'does_not'
 

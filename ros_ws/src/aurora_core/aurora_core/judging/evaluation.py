@@ -186,11 +186,7 @@ class Context:
         """
         uav = self.view.body(mission.uav)
         point = self.view.reference(uav.body_id)
-        begun = sorted(
-            (tick, climb.event, climb)
-            for climb in mission.climbs
-            if (tick := self._climb_tick(climb, mission)) is not None
-        )
+        begun = self._climbs(mission)
         if not begun:
             return point
         heights = point[:, 2].copy()
@@ -201,6 +197,27 @@ class Context:
             settled = tick + whole_ticks(climb.within_s, self.view.dt_s) if grace else later
             heights[later:settled] = mission.altitude_m
         return np.column_stack((point[:, :2], heights))
+
+    def left_early(self, mission: MissionArguments, touchdown_m: float) -> int | None:
+        """Return when an event takes a UAV from its altitude that has not captured there before.
+
+        None where none does.
+        """
+        begun = self._climbs(mission)
+        if not begun:
+            return None
+        uav, flight = self.view.body(mission.uav), self.flight(mission, touchdown_m)
+        own = mission_phase(self.view, uav, mission.index, flight, mission.capture_rule)
+        captured = own.capture_tick is not None and own.capture_tick <= begun[0][0]
+        return None if captured else begun[0][0]
+
+    def _climbs(self, mission: MissionArguments) -> list[tuple[int, str, ClimbArguments]]:
+        """Return the climbs that begin while a mission is flown, with their ticks, in order."""
+        return sorted(
+            (tick, climb.event, climb)
+            for climb in mission.climbs
+            if (tick := self._climb_tick(climb, mission)) is not None
+        )
 
     def _climb_tick(self, climb: ClimbArguments, mission: MissionArguments) -> int | None:
         """Return when a climb begins, None where it does not while this mission is flown.

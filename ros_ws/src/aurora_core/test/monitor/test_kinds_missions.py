@@ -110,6 +110,21 @@ def _hover_on_ground() -> Case:
     return grounded(hover_case(explicit_s=30.0))
 
 
+def _told_to_climb(tick: int) -> Case:
+    """At a tick it leaves its 30 m for 60 m: a clock tells it to."""
+    case = hover_case()
+
+    def path(k: int) -> tuple[float, float, float]:
+        return 100.0, 0.0, 60.0 if k >= tick else 30.0
+
+    case.run.flights[:] = [flight(1401, (100.0, 20.2), 30.0, path, landing=900)]
+    climb = {'do': 'ascend', 'uav': 'uav1', 'altitude_m': number(60.0)}
+    at = {'on': 'time', 'at_s': number(tick * 0.05, Unit.SECOND)}
+    event = {'id': 'e1', 'trigger': at, 'action': climb}
+    case.spec = spec(**{**dict(case.spec), 'events': (event,)})
+    return case
+
+
 def _bus_gone_early() -> Case:
     return gone(convoy_case(), 1, 50)
 
@@ -145,6 +160,9 @@ ROWS = (
         within=0.003,
     ),
     Row(id='m1.altitude', make=_hover_on_ground, reason=EMPTY),
+    Row(id='m1.altitude', make=partial(_told_to_climb, 300), margin=1.0 - 0.95),
+    # On its way to its point it has not kept the altitude that its mission is to have.
+    Row(id='m1.altitude', make=partial(_told_to_climb, 152), reason=EMPTY),
     Row(
         id='m1.duration',
         make=lambda: hover_case(explicit_s=36.5),

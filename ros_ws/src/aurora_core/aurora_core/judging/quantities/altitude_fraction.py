@@ -18,6 +18,7 @@ from aurora_core.judging.evaluation import Context, Evaluation, Missing
 from aurora_core.judging.quantity import OfMission, PerSample
 from aurora_core.judging.shares import share_of
 from aurora_core.outcomes.condition import Condition, MissionArguments
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
@@ -35,10 +36,15 @@ class AltitudeFraction(OfMission):
     altitude: PerSample
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
-        """Return the share."""
+        """Return the share; who is told to another altitude before it was there never was."""
         ticks = context.window(condition)
         if isinstance(ticks, Missing):
             return ticks
+        early = context.left_early(self.mission, self.touchdown_m)
+        if early is not None:
+            told_s = f'{context.time_s(early):.2f} s'
+            story = f'{self.mission.uav} left for another altitude at {told_s}, before its capture'
+            return Missing(reason=Reason.EMPTY_PHASE, story=story)
         good = self.altitude.good(context.position(self.mission)[:, 2])
         values = motion.altitude(context.view, context.view.body(condition.of[0]))
         what = f'{condition.of[0]} kept its altitude'

@@ -184,6 +184,12 @@ def _condition(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(c.id in clause.ids for c in spec.conditions)
 
 
+def _no_latency(spec: ScenarioSpec, clause: Clause) -> bool:
+    """No latency, which counts from the sending on: `no later than 2 s after` that alone."""
+    told = [c.quantity for c in spec.conditions if c.id in clause.ids]
+    return 'after' in clause.text.lower() or QuantityName.DELIVERY_LATENCY not in told
+
+
 def _mission(spec: ScenarioSpec, clause: Clause) -> bool:
     """A phase, whose values hold all along."""
     return any(m.id in clause.ids for m in spec.missions)
@@ -427,6 +433,7 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'timed': _timed,
     'condition': _condition,
     'mission': _mission,
+    'no_latency': _no_latency,
     'whole_run': _whole_run,
     'unbroken': _unbroken,
     'kept_distance': _kept_distance,
