@@ -75,6 +75,8 @@ _NEAR = 'when the van comes within 30 m of the ego car'
         ('A red and a blue car drive. A drone tracks the red one.', 'A red'),
         ('A truck drives to City Hall and stays there. A drone tracks the truck.', 'stays there'),
         ('A bicycle rides 10 m behind a bus and stays there. A drone tracks it.', 'stays there'),
+        ('A drone hovers over a bus at 40 m for 30 s. The bus drives at 10 m/s.', 'hovers over'),
+        ('A drone orbits a bus with a radius of 30 m. The bus drives at 6 m/s.', 'orbits a bus'),
         (
             'A drone hovers at 50 m for 20 s, then descends to 20 m; when it reaches 20 m, the '
             'ego car starts.',
@@ -142,6 +144,8 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A drone tracks the ego car from more than 30 m away.',
         'A truck is placed more than 40 m ahead of the ego car.',
         'A drone hovers over City Hall at 40 m and stays there for 20 seconds.',
+        'A drone hovers over the ego car at 40 m for 5 seconds.',
+        'A drone hovers over a parked van. The ego car drives past it.',
         'A drone tracks a van at 30 m. The altitude of the drone is at most 40 m.',
         'A drone tracks a van at 30 m. The drone is always within 45 m of the van.',
         'A drone tracks a van and is never nearer than 12 m.',

@@ -20,11 +20,15 @@ from aurora_core.parsing.doubts.clauses import (
 from aurora_core.spec.parameter import Parameter, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AltitudeTrigger, Clause, ScenarioSpec, UavAction
-from aurora_core.spec.vocabulary import ClauseStatus, MissionMode
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode, Pattern
 
 # What tells of a flight: verbs, `an orbit`, `a patrol`, `back again`.
 _FLOWN = frozenset(
     {AtomKind.VERB, AtomKind.PATTERN, AtomKind.THEN, AtomKind.HAPPENING, AtomKind.ROUTE}
+)
+# Whoever does so is somewhere else soon.
+_MOVES = frozenset(
+    {BehaviorKind.CIRCULATE, BehaviorKind.DRIVE, BehaviorKind.EMERGENCY_RUN, BehaviorKind.WALK}
 )
 _CLIMBS = frozenset({'ascend', 'descend'})
 # Who does nothing in the air, and what a distance is measured from.
@@ -87,6 +91,18 @@ def folded_climbs(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
                 yield clause.span
             if atom.key not in _CLIMBS:
                 begun |= told
+
+
+def hovers_over_movers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`hovers above a truck that drives`, `orbits` it: either stays where that is at first."""
+    moving = {a.id for a in spec.agents if any(b.kind in _MOVES for b in a.behaviors)}
+    for mission in spec.missions:
+        stays = mission.mode is MissionMode.HOVER or mission.pattern is Pattern.ORBIT
+        if not stays or mission.target not in moving:
+            continue
+        for clause in spec.clauses:
+            if mission.id in clause.ids and clause.status is ClauseStatus.ENCODED:
+                yield clause.span
 
 
 def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

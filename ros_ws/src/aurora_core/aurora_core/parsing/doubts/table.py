@@ -34,6 +34,7 @@ from aurora_core.parsing.doubts.flights import (
     heights_from_somebody,
     heights_over_fliers,
     heights_passed_twice,
+    hovers_over_movers,
     stays_of_others,
     watched_while_hovering,
 )
@@ -80,6 +81,7 @@ _CHECKS: tuple[_Check, ...] = (
     heights_over_fliers,
     heights_from_somebody,
     heights_passed_twice,
+    hovers_over_movers,
     stays_of_others,
     other_receivers,
     told_by_a_person,
