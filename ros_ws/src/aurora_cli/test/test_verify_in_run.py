@@ -203,6 +203,8 @@ CHANGES: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
     'seed': ('report.json', lambda d: d.update(seed=7)),
     'map': ('report.json', lambda d: d.update(map='midtown')),
     'engine': ('report.json', lambda d: d.update(engine='ros')),
+    'model': ('report.json', lambda d: d.update(model='openai/other')),
+    'model asked for': ('manifest.json', lambda d: d['request'].update(model='openai/other')),
     'faults': ('manifest.json', lambda d: d['request'].update(faults=[FAULT])),
     'seed asked for': ('manifest.json', lambda d: d['request'].update(seed=7)),
     'seed not told': ('manifest.json', lambda d: d['request'].pop('seed')),
@@ -241,6 +243,21 @@ def test_one_document_that_tells_otherwise_is_enough(run: Path, call: Call, name
     found = said(call, str(run))
     assert (found.code, found.integrity == 'intact') == (4, name == 'verdict')
     assert file in found.first
+
+
+def test_what_nobody_can_read_again_was_not_read_by_the_offline_parser(
+    finished: SimpleNamespace,
+    shell: SimpleNamespace,
+    here: Path,
+    call: Call,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Whoever cuts a clause out of a run takes away who has read it, too."""
+    monkeypatch.setattr('aurora_core.pipeline.functions.parser_digest', lambda: '')
+    folder = copied(here, made(finished, shell.prompt))
+    found = said(call, str(folder))
+    assert (found.code, found.integrity) == (4, 'altered')
+    assert 'offline parser' in found.first
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from aurora_core.execution.faults import Fault
+from aurora_core.ports.model_name import OFFLINE
 from aurora_core.report.process import ProcessIdentity
 
 MANIFEST_VERSION = 1
@@ -30,7 +31,7 @@ class ManifestRequest(_Lenient):
 
     prompt: str | None = None
     engine: str = 'local'
-    model: str = 'offline'
+    model: str = OFFLINE
     map_name: str = 'downtown'
     seed: int = 1
     faults: tuple[Fault, ...] = ()

@@ -22,6 +22,7 @@ from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Verdict, VerdictStatus
+from aurora_core.ports.model_name import OFFLINE
 from aurora_core.report.build import restated
 from aurora_core.report.comparison import Comparison, compare
 from aurora_core.report.doubts import Doubt, altered, trace_doubts, unknown
@@ -203,9 +204,13 @@ def _asked(manifest: Manifest, report: RunReport | None, bag: JudgedBag) -> Iter
     yield from _differs(MANIFEST, 'the map', request.map_name, bag.agsg.map_name)
     seed = bag.agsg.grounding.seed if bag.agsg.grounding is not None else None
     yield from _differs(MANIFEST, 'the seed', request.seed, seed)
+    if request.model == OFFLINE and not bag.agsg.spec.reader:
+        # What it has read could be read again.
+        yield altered(f'{MANIFEST} says that the offline parser read the prompt, the bag does not')
     if report is not None:
         for what, asked, told in (
             ('engine', request.engine, report.engine),
+            ('model', request.model, report.model),
             ('injected faults', request.faults, report.faults),
         ):
             if asked != told:
