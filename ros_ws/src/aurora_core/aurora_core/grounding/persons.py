@@ -226,7 +226,7 @@ class PersonPlacer:
             # Without a stated distance the crosswalk says how far ahead of the vehicle that is.
             stated = any(is_stated(p.distance_m) for p in agent.placements)
             ahead = any(p.relation in _BEFORE_IT for p in agent.placements)
-            back_m = _ARRIVES_FROM_M if any(True for _ in arrivals(spec, agent)) else KERB_M
+            back_m = _ARRIVES_FROM_M if _arrives(spec, agent) else KERB_M
             return self._crossing(site, placed if stated or not ahead else None, number, back_m)
         if isinstance(placed, str):
             return placed
@@ -437,7 +437,7 @@ class PersonPlacer:
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
         names += [trigger.place for trigger in arrivals(spec, agent)]
         # Who is to arrive somewhere walks there from a little way off.
-        arrives = any(True for _ in arrivals(spec, agent))
+        arrives = _arrives(spec, agent)
         stated = {
             p.of: max(0.0, p.distance_m.inside(self._style.inside_bound_m))
             for p in agent.placements
@@ -475,11 +475,16 @@ class PersonPlacer:
         return 'sidewalk' if path is None else Spot(path, spot.arc_m, spot.lateral_m)
 
 
+def _arrives(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether an event waits for a person to arrive somewhere."""
+    return next(arrivals(spec, agent), None) is not None
+
+
 def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether a person is to leave its place at some time."""
     if crosses(spec, agent) or sets_off(spec.events, agent.id) is not None:
         return True
-    if any(True for _ in arrivals(spec, agent)):
+    if _arrives(spec, agent):
         return True
     return bool(agent.behaviors) and not stands(agent)
 
