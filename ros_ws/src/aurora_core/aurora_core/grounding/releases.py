@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from aurora_core.grounding.awaited import awaited_at, is_kept_away, leaving
@@ -90,18 +90,13 @@ def _reported_route(spec: ScenarioSpec, agent: GroundAgent) -> UavMission | None
 def _slows_at_sight(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> bool:
     """Tell whether one slows down as soon as a UAV sees another one that it watches."""
     watched = next((m.target for m in spec.missions if m.id == release.mission), None)
-    events = {e.id: e for e in spec.events}
     for event in spec.events:
         action = event.action
         if not isinstance(action, AgentAction) or action.agent != agent.id:
             continue
-        first: Event | None = event if action.do in FROM_MOTION and agent.id != watched else None
-        seen: set[str] = set()
-        while first is not None and first.id not in seen:
-            seen.add(first.id)
-            if _is_sighting(first, release.uav, watched):
-                return True
-            first = events.get(_cause_of(spec, first) or '')
+        slows = action.do in FROM_MOTION and agent.id != watched
+        if slows and any(_is_sighting(e, release.uav, watched) for e in _causes(spec, event)):
+            return True
     return False
 
 
@@ -378,15 +373,18 @@ def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
 def _is_ended_by(spec: ScenarioSpec, mission: UavMission, body: str) -> bool:
     """Tell whether a mission ends with what a body does, or with what comes of that."""
     ends = left_by(spec, mission)
-    causes = {None if ends is None else ends.id} - {None}
+    return ends is not None and any(body in bodies_of_cause(e) for e in _causes(spec, ends))
+
+
+def _causes(spec: ScenarioSpec, event: Event) -> Iterator[Event]:
+    """Yield an event and, one after the other, those that it comes of."""
     events = {e.id: e for e in spec.events}
-    while ends is not None:
-        if body in bodies_of_cause(ends):
-            return True
-        before = _cause_of(spec, ends)
-        ends = None if before is None or before in causes else events.get(before)
-        causes.add(before)
-    return False
+    seen: set[str] = set()
+    cause: Event | None = event
+    while cause is not None and cause.id not in seen:
+        yield cause
+        seen.add(cause.id)
+        cause = events.get(_cause_of(spec, cause) or '')
 
 
 def _cause_of(spec: ScenarioSpec, event: Event) -> str | None:
