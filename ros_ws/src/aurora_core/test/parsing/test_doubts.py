@@ -113,6 +113,10 @@ _NEAR = 'when the van comes within 30 m of the ego car'
         ('The drone films the bus from below.', 'from below'),
         ('The drone flies to City Hall and back.', 'and back'),
         ('The bus follows the truck without exceeding 6 m/s.', 'without exceeding'),
+        ('A drone stays 40 m away from a van while it orbits City Hall.', 'while it orbits'),
+        ('While a drone patrols along Main Street, it stays 50 m from a van.', 'it stays'),
+        ('A drone hovers at 50 m and stays 100 m away from City Hall.', '100 m away from'),
+        ('A drone flies a patrol along Main Street at 40 m.', 'a patrol'),
     ],
 )
 def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
@@ -152,6 +156,9 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A car, a van and a bus circulate. A drone tracks the van.',
         'A bus starts after 12 s. A drone tracks the bus when it starts, for 60 s.',
         'A drone hovers at 50 m for 20 s; when it reaches 20 m, the ego car starts.',
+        'A drone hovers over City Hall at 50 m while a second one tracks a van.',
+        'While a drone tracks a van at 40 m, the van stays within 30 m of the ego car.',
+        'There is a police car on Main Street. A drone hovers at 40 m.',
     ],
 )
 def test_what_elements_say_is_not_doubted(prompt: str) -> None:

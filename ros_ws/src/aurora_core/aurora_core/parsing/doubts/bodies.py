@@ -76,12 +76,17 @@ def without_part(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
 
 
 def idle(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
-    """`overtakes the bus and the car`: whom a verb is about, and nothing of the scene is."""
+    """`overtakes the bus and the car`: whom a verb is about, and nothing of the scene is.
+
+    Who is somewhere, and in no clause (`flies a patrol along Main Street`), is nothing, either.
+    """
     bodies = bodies_called(spec)
+    told = {name for clause in spec.clauses for name in clause.ids}
     about: set[str] = set()
     for agent in spec.agents:
         parts = (*agent.placements, *agent.behaviors)
-        about |= {agent.id} if parts else set()
+        somewhere = agent.id in told or any(p.of in bodies for p in agent.placements)
+        about |= {agent.id} if agent.behaviors or (parts and somewhere) else set()
         about |= {word for part in parts for word in _strings(part)}
     others = (*spec.missions, *spec.events, *spec.conditions, *spec.links, *spec.prohibitions)
     about |= {word for one in others for word in _strings(one)}

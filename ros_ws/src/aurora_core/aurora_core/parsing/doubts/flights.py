@@ -15,6 +15,7 @@ from aurora_core.parsing.doubts.clauses import (
     meet,
     over,
     sentences,
+    stretch,
     within,
 )
 from aurora_core.spec.parameter import Parameter, Provenance, Span
@@ -33,7 +34,7 @@ _MOVES = frozenset(
 _CLIMBS = frozenset({'ascend', 'descend'})
 # Who does nothing in the air, and what a distance is measured from.
 _GROUND = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO})
-_FROM = ('from', 'away from', 'of')
+_AWAY = ('from', 'away from')
 _APART = re.compile(r'\b(?:apart|away|close|closer|farther|further|near|nearer)\b')
 _STAYS = ('holds', 'keeps', 'remains', 'stays', 'waits')
 # Behind these a verb has the subject of the one before.
@@ -105,6 +106,25 @@ def hovers_over_movers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Sp
                 yield clause.span
 
 
+def flights_at_once(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`stays 40 m away from the van while it orbits City Hall` that became one after the other."""
+    uavs = {m.id: m.uav for m in spec.missions}
+    for sentence in sentences(atoms):
+        for k, atom in enumerate(sentence):
+            if atom.kind is not AtomKind.SUBORDINATOR or atom.key != 'while':
+                continue
+            verbs = [a for a in sentence[:k] if a.kind is AtomKind.VERB][-1:]
+            verbs += [a for a in stretch(sentence, k + 1) if a.kind is AtomKind.VERB]
+            if not k and len(verbs) == 1:
+                # `while it orbits City Hall, it stays …`
+                verbs += [a for a in sentence if a.kind is AtomKind.VERB][1:2]
+            flown = [_missions(spec, a) for a in verbs[:2]]
+            if len(flown) < 2 or flown[0] & flown[1]:
+                continue
+            if {uavs[i] for i in flown[0]} & {uavs[i] for i in flown[1]}:
+                yield over(atom, verbs[-1] if k else verbs[1])
+
+
 def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`another one hovers 12 m above it` that became a hover 12 m above the ground."""
     flying = {uav.id for uav in spec.uavs}
@@ -117,20 +137,24 @@ def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[S
 
 
 def heights_from_somebody(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
-    """`tracks a van and is at most 35 m from it` that became an altitude of at most 35 m."""
-    heights = [c.value.span for c in spec.conditions if c.quantity == QuantityName.ALTITUDE]
+    """`tracks a van and is 35 m away from it` that became an altitude of 35 m."""
+    bounds = [c.value.span for c in spec.conditions if c.quantity == QuantityName.ALTITUDE]
+    flown = [m.altitude_m.span for m in spec.missions if m.altitude_m is not None]
     for sentence in sentences(atoms):
         for k, measure in enumerate(sentence):
             if measure.measure is None:
                 continue
             own = over(measure, measure)
-            if not any(span is not None and meet(span, own) for span in heights):
-                continue
+            bound, height = (
+                any(span is not None and meet(span, own) for span in spans)
+                for spans in (bounds, flown)
+            )
             behind = next(iter(sentence[k + 1 :]), measure)
             before = spec.prompt[sentence[max(0, k - 1)].start : measure.end].lower()
-            if behind.words.startswith(_FROM):
+            away = behind.words.startswith(_AWAY)
+            if (bound or height) and (away or (bound and behind.words.startswith('of'))):
                 yield over(measure, behind)
-            elif _APART.search(before):
+            elif bound and _APART.search(before):
                 yield own
 
 
@@ -176,6 +200,9 @@ def _is(parameter: Parameter, value: float) -> bool:
 
 def _flown(spec: ScenarioSpec, atoms: Sequence[Atom]) -> set[str]:
     """Return the missions of the clauses of some verbs."""
-    clauses = [clause_of(spec, a) for a in atoms if a.kind is AtomKind.VERB]
-    told = {name for c in clauses if c is not None for name in c.ids}
-    return told & {m.id for m in spec.missions}
+    return {name for a in atoms if a.kind is AtomKind.VERB for name in _missions(spec, a)}
+
+
+def _missions(spec: ScenarioSpec, verb: Atom) -> set[str]:
+    clause = clause_of(spec, verb)
+    return set() if clause is None else {m.id for m in spec.missions} & set(clause.ids)

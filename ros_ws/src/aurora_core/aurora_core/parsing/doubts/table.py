@@ -29,6 +29,7 @@ from aurora_core.parsing.doubts.bodies import (
     without_part,
 )
 from aurora_core.parsing.doubts.flights import (
+    flights_at_once,
     flights_without_verb,
     folded_climbs,
     heights_from_somebody,
@@ -82,6 +83,7 @@ _CHECKS: tuple[_Check, ...] = (
     heights_from_somebody,
     heights_passed_twice,
     hovers_over_movers,
+    flights_at_once,
     stays_of_others,
     other_receivers,
     told_by_a_person,
