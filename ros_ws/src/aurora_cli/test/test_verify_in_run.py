@@ -199,6 +199,7 @@ def test_the_prompt_of_the_folder_is_the_one_in_the_bag(run: Path, call: Call) -
 
 
 FAULT = {'kind': 'link_loss', 'subject': '*', 'value': 1.0}
+REPAIR = {'iteration': 1, 'kind': 'single', 'bag': 'bag.1'}
 CHANGES: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
     'seed': ('report.json', lambda d: d.update(seed=7)),
     'map': ('report.json', lambda d: d.update(map='midtown')),
@@ -216,6 +217,13 @@ CHANGES: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
     'digest of the graph': ('report.json', lambda d: d['bags'][0].update(graph_sha256='0' * 64)),
     'trace': ('report.json', lambda d: d['bags'][0].update(trace_sha256='0' * 64)),
     'no trace': ('report.json', lambda d: d.update(trace=None)),
+    'ticks': ('report.json', lambda d: d['trace'].update(ticks=7)),
+    'motion': ('report.json', lambda d: d['trace'].update(motion_sha256='0' * 64)),
+    'integrity': ('report.json', lambda d: d['trace'].update(integrity='altered')),
+    'verdict of the trace': ('report.json', lambda d: d['trace'].update(verdict='violated')),
+    'attempt': ('report.json', lambda d: d['bags'][0].update(iteration=1)),
+    'attempt more': ('report.json', lambda d: d['bags'].append({**d['bags'][0], 'bag': 'bag.1'})),
+    'repair': ('report.json', lambda d: d['repairs'].append(REPAIR)),
     'no bags': ('report.json', lambda d: d.update(bags=[])),
     'status': ('report.json', lambda d: d.update(status='violated')),
     'refused': ('report.json', lambda d: d.update(status='infeasible')),
@@ -243,6 +251,52 @@ def test_one_document_that_tells_otherwise_is_enough(run: Path, call: Call, name
     found = said(call, str(run))
     assert (found.code, found.integrity == 'intact') == (4, name == 'verdict')
     assert file in found.first
+
+
+def test_what_two_documents_agree_on_is_held_against_the_bag(run: Path, call: Call) -> None:
+    for names, change, why in (
+        (
+            ('report.json', 'manifest.json'),
+            lambda d: d.get('request', d).update(faults=[FAULT]),
+            'the bag of none',
+        ),
+        (
+            ('report.json', 'feasibility.0.json'),
+            lambda d: d.get('feasibility', d).update(result='infeasible'),
+            'infeasible of what was executed',
+        ),
+    ):
+        stored = {name: (run / name).read_bytes() for name in names}
+        for name in names:
+            edited(run / name, change)
+        found = said(call, str(run))
+        assert (found.code, found.integrity) == (4, 'altered')
+        assert why in found.first
+        for name, data in stored.items():
+            (run / name).write_bytes(data)
+
+
+def test_an_attempt_that_was_taken_away_is_said(run: Path, call: Call) -> None:
+    def two(report: dict[str, Any]) -> None:
+        report['bags'].append({**report['bags'][0], 'bag': 'bag.1', 'iteration': 1})
+        report['repairs'].append(REPAIR)
+
+    edited(run / 'report.json', two)
+    assert 'bag.1, which report.json lists, is missing' in call('verify', str(run), '--json').out
+
+
+def test_a_document_that_tells_something_twice_is_none(run: Path, call: Call) -> None:
+    for name, once in (('report.json', '"seed": 1'), ('manifest.json', '"seed": 1')):
+        stored = (run / name).read_text()
+        (run / name).write_text(stored.replace(once, f'{once}, {once}', 1))
+        found = said(call, str(run))
+        assert (found.code, found.integrity) == (4, 'unknown')
+        assert 'twice' in found.first
+        (run / name).write_text(stored)
+    metadata = run / 'bag.0' / 'metadata.yaml'
+    metadata.write_text(f'{metadata.read_text()}rosbag2_bagfile_information: {{version: 9}}\n')
+    found = said(call, str(run))
+    assert (found.code, found.integrity == 'intact') == (4, False)
 
 
 def test_what_nobody_can_read_again_was_not_read_by_the_offline_parser(

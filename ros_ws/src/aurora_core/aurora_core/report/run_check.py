@@ -18,7 +18,7 @@ from aurora_core.agsg.document import agsg_from_json
 from aurora_core.document import Document, first_difference
 from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Verdict, VerdictStatus
@@ -280,11 +280,32 @@ def _report(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
                 f'{REPORT}, {name},', 'the graph', entry.graph_sha256, bag.agsg.sha256
             )
     yield from _request(report, bag)
+    yield from _attempts(run, report, iteration)
     judged = _judged(report, listed)
     if judged is not None and judged.bag == name:
         yield from _by_which_judged(report, judged, len(listed), bag)
     elif judged is not None and not (run / judged.bag).exists():
         yield unknown(f'{judged.bag}, by which the run was judged, is missing')
+
+
+def _attempts(run: Path, report: RunReport, iteration: int) -> Iterator[Doubt]:
+    """Tell where the attempts of a run are not all there: they are numbered from 0."""
+    if not report.bags:
+        return
+    names = [entry.bag for entry in report.bags]
+    numbers = [entry.iteration for entry in report.bags]
+    if names != [f'bag.{number}' for number in range(len(names))] or numbers != [
+        *range(len(names))
+    ]:
+        yield altered(f'{REPORT} does not list the attempts one by one: {", ".join(names)}')
+    repaired = [repair.bag for repair in report.repairs if repair.bag is not None]
+    # What broke off in an attempt has its bag, and nothing to tell of it.
+    expected = names[1 : len(repaired) + 1] if report.status in _CLAIMS_NOTHING else names[1:]
+    if repaired != expected:
+        yield altered(f'the repairs in {REPORT} are not those of its bags: {", ".join(repaired)}')
+    for entry in report.bags:
+        if entry.iteration != iteration and not (run / f'bag.{entry.iteration}').exists():
+            yield unknown(f'bag.{entry.iteration}, which {REPORT} lists, is missing')
 
 
 def _judged(report: RunReport, listed: Sequence[BagReport]) -> BagReport | None:
@@ -357,28 +378,40 @@ def _request(report: RunReport, bag: JudgedBag) -> Iterator[Doubt]:
     version = report.versions.get('aurora')
     if grounded.basis is not None and version is not None:
         yield from _differs(REPORT, 'the version', version, grounded.basis.version)
-    known = {(fault.subject, fault.kind) for fault in report.faults}
-    for subject, kind in sorted(_injected(bag) - known):
+    yield from _faults(report, bag)
+
+
+def _faults(report: RunReport, bag: JudgedBag) -> Iterator[Doubt]:
+    """Compare the faults of a report with those that the bag says were injected."""
+    trace = bag.content.trace
+    injected = {(e.subject, e.detail) for e in trace.events if e.kind is ScenarioEventKind.FAULT}
+    told = {(fault.subject, fault.told()) for fault in report.faults}
+    for subject, detail in sorted(injected - told):
+        kind = detail.partition(' ')[0]
         yield altered(f'{REPORT} tells of no injected fault {kind} on {subject}')
-
-
-def _injected(bag: JudgedBag) -> set[tuple[str, str]]:
-    # A detail begins with the kind of the fault.
-    events = bag.content.trace.events
-    return {
-        (e.subject, e.detail.partition(' ')[0])
-        for e in events
-        if e.kind is ScenarioEventKind.FAULT
+    # One acts from the first tick that is not before it.
+    acted = {
+        (fault.subject, fault.told())
+        for fault in report.faults
+        if fault.at_s <= trace.time_s(trace.ticks - 2)
     }
+    for subject, detail in sorted(acted - injected):
+        kind = detail.partition(' ')[0]
+        yield altered(f'{REPORT} tells of a fault {kind} on {subject}, the bag of none')
 
 
 def _by_which_judged(
     report: RunReport, entry: BagReport, executions: int, bag: JudgedBag
 ) -> Iterator[Doubt]:
     """Compare what a report claims with the bag that it was judged by."""
+    feasibility = report.feasibility
+    if feasibility is not None and feasibility.result is Feasibility.INFEASIBLE:
+        yield altered(f'{REPORT} says infeasible of what was executed')
     trace = report.trace
     if trace is None or (trace.bag, trace.sha256) != (entry.bag, entry.trace_sha256):
         yield altered(f'{REPORT} contradicts itself about {entry.bag}')
+    else:
+        yield from _claims(trace, entry, bag)
     spec = hashlib.sha256(bag.agsg.spec.canonical_json().encode('utf-8')).hexdigest()
     yield from _differs(REPORT, 'the digest of the request', report.digests.spec, spec)
     yield from _differs(REPORT, 'the digest of the graph', report.digests.agsg, bag.agsg.sha256)
@@ -401,6 +434,27 @@ def _by_which_judged(
         )
     if report.status is Status.VERIFIED and (unread(bag.clauses) or not bag.clauses):
         yield altered(f'{REPORT} says verified, but not all of the prompt is encoded')
+
+
+def _claims(trace: TraceReport, entry: BagReport, bag: JudgedBag) -> Iterator[Doubt]:
+    """Compare what a report says of the recording with the recording."""
+    if bag.verdict.integrity is not Integrity.INTACT:
+        return
+    ticks = bag.content.trace.ticks
+    yield from _differs(REPORT, 'the ticks', (trace.ticks, entry.ticks), (ticks, ticks))
+    if trace.motion_sha256:
+        yield from _differs(
+            REPORT, 'the motion hash', trace.motion_sha256, bag.hashes.motion_sha256
+        )
+    if trace.verdict is None:
+        return
+    yield from _differs(REPORT, 'the integrity', trace.integrity.value, Integrity.INTACT.value)
+    # What cannot be decided here may have been decided by another configuration.
+    if bag.verdict.status is not VerdictStatus.INCONCLUSIVE:
+        told, found = trace.verdict, bag.verdict.status
+        yield from _differs(REPORT, 'the verdict', told.value, found.value)
+        if trace.cross_check != bag.verdict.cross_check:
+            yield altered(f'{REPORT} has other findings than the bag gives')
 
 
 _CLAIMS_NOTHING = (Status.ERROR, Status.CANCELLED, Status.INCONCLUSIVE)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -49,6 +50,7 @@ def read_document(
     if isinstance(data, Unreadable):
         return data
     try:
+        json.loads(data, object_pairs_hook=_once)
         return kind.model_validate_json(data) if read is None else read(data)
     except ValidationError as err:
         first = err.errors(include_url=False, include_input=False)[0]
@@ -58,6 +60,16 @@ def read_document(
     # A document of another make can be nested, or hold numbers, beyond what Python reads.
     except (RecursionError, ValueError, OverflowError, MemoryError) as err:
         return _none(path, f'{type(err).__name__}: {err}')
+
+
+def _once(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    """Return an object whose names are told once: of two values readers take different ones."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f'it tells {twice!r} twice')
+    return found
 
 
 def _none(path: Path, why: str) -> Unreadable:

@@ -99,7 +99,7 @@ def read_metadata(folder: Path) -> BagMetadata:
     path = folder / METADATA
     try:
         text = read_bytes(path, _SIZE_LIMIT)
-        _check_depth(text)
+        _check_form(text)
         document = yaml.load(text, Loader=_LOADER)  # noqa: S506  (a safe loader)
         info = document['rosbag2_bagfile_information']
         custom = info.get('custom_data') or {}
@@ -157,21 +157,33 @@ def offered(topic: str) -> str:
     return str(yaml.dump([qos(topic)], Dumper=_DUMPER))
 
 
-def _check_depth(text: bytes) -> None:
-    """Refuse what is nested deeply: the loader in C recurses, and dies when the stack ends.
+def _check_form(text: bytes) -> None:
+    """Refuse what is nested deeply or tells a key twice.
+
+    The loader in C recurses, and dies when the stack ends; of two values readers take different
+    ones.
 
     Raises:
-        ValueError: It is nested deeply.
+        ValueError: It is nested deeply, or a key is there twice.
         YAMLError: It is no YAML.
     """
-    depth = 0
+    # Of each open collection the keys so far, None for a list, and whether a key comes next.
+    within: list[tuple[set[str] | None, bool]] = []
     for event in yaml.parse(text, Loader=_LOADER):
-        if isinstance(event, yaml.CollectionStartEvent):
-            depth += 1
-            if depth > _DEPTH_LIMIT:
-                raise ValueError(f'it is nested more than {_DEPTH_LIMIT} deep')
-        elif isinstance(event, yaml.CollectionEndEvent):
-            depth -= 1
+        if isinstance(event, yaml.CollectionEndEvent):
+            within.pop()
+        elif isinstance(event, yaml.NodeEvent):
+            if within and (keys := within[-1][0]) is not None:
+                is_key = within[-1][1]
+                within[-1] = keys, not is_key
+                if is_key and isinstance(event, yaml.ScalarEvent):
+                    if event.value in keys:
+                        raise ValueError(f'it tells {event.value!r} twice')
+                    keys.add(event.value)
+            if isinstance(event, yaml.CollectionStartEvent):
+                within.append((set() if isinstance(event, yaml.MappingStartEvent) else None, True))
+                if len(within) > _DEPTH_LIMIT:
+                    raise ValueError(f'it is nested more than {_DEPTH_LIMIT} deep')
 
 
 def _document(metadata: BagMetadata) -> dict[str, object]:
