@@ -195,15 +195,28 @@ HELPS: Mapping[str, tuple[Help, ...]] = MappingProxyType(
 )
 
 # A distance is helped by what brings two bodies together, or apart.
-TOGETHER = (
-    _lower(1.5, 'a distance to a UAV counts its height'),
+_TOGETHER = (
     _nearer(2.0, 'a distance to a UAV counts its standoff'),
     _closer(1.5, 'who starts farther away stays farther away'),
     _place(2.0, _ROAD),
 )
-APART = (
-    _higher(1.5, 'a distance to a UAV counts its height'),
+_APART = (
     Help(name='standoff_m', direction=1, weight=2.0, because='who is apart stays apart'),
     _farther(1.5, 'who starts nearer stays nearer'),
     _place(2.0, _ROAD),
 )
+_HEIGHT = 'a distance to a UAV counts its height'
+_DISTANCES: Mapping[tuple[Q, bool], tuple[Help, ...]] = MappingProxyType(
+    {
+        (Q.DISTANCE, True): (_lower(1.5, _HEIGHT), *_TOGETHER),
+        (Q.DISTANCE, False): (_higher(1.5, _HEIGHT), *_APART),
+        (Q.HORIZONTAL_DISTANCE, True): _TOGETHER,
+        (Q.HORIZONTAL_DISTANCE, False): _APART,
+    }
+)
+
+
+def helps(quantity: Q, op: str) -> tuple[Help, ...]:
+    """Return what helps a quantity to hold its comparison (`<`, `<=`, `>`, `>=`, `==`)."""
+    of_distance = _DISTANCES.get((quantity, op in ('<', '<=')))
+    return HELPS.get(quantity, ()) if of_distance is None else of_distance

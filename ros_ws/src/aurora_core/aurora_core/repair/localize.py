@@ -21,16 +21,14 @@ from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.repair import Implicated
 from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict
 from aurora_core.repair.experience import weight
-from aurora_core.repair.helps import ANCHOR, APART, HELPS, TOGETHER, Help
+from aurora_core.repair.helps import ANCHOR, helps
 from aurora_core.repair.lock import is_movable
 from aurora_core.repair.reach import out_of_reach
-from aurora_core.spec.quantity import QuantityName
 
 # How bad it is that a margin is missing (normalised), and what a mere consequence counts.
 _NO_MARGIN = 1.0
 _CONSEQUENCE = 0.5
 _WORST = 3.0
-_DISTANCES = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
 # What geometry proves speaks louder than what often helps.
 _EVIDENCE = 6.0
 # A value far on the wrong side of its domain is more likely at fault than one that is not.
@@ -129,7 +127,7 @@ def _speaking(
     """Yield field, direction, score and reason of all that can be at fault for one condition."""
     severity = _severity(row)
     told = _told(row)
-    for help_ in _helps(condition):
+    for help_ in helps(condition.quantity, condition.op):
         if help_.name == ANCHOR:
             score = severity * help_.weight / (1.0 + _ANCHOR_STEPS)
             yield ANCHOR, 0, score, f'{told}: {help_.because}'
@@ -144,12 +142,6 @@ def _speaking(
             share = _LEAST_ROOM + _ROOM * room
             score = severity * share * help_.weight / (1.0 + influence.distance)
             yield influence.parameter, help_.direction, score, f'{told}: {help_.because}'
-
-
-def _helps(condition: Condition) -> Sequence[Help]:
-    if condition.quantity in _DISTANCES:
-        return TOGETHER if condition.op in ('<', '<=') else APART
-    return HELPS.get(condition.quantity, ())
 
 
 def _severity(row: ConditionResult) -> float:

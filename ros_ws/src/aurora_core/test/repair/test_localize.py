@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.repair.helps import ANCHOR, HELPS
+from aurora_core.repair.helps import ANCHOR, HELPS, helps
 from aurora_core.repair.localize import localize
 from aurora_core.repair.lock import is_movable
 from aurora_core.spec.quantity import QuantityName
@@ -19,6 +19,15 @@ _BY_OPERATOR = {QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE}
 
 def test_every_quantity_says_what_helps_it() -> None:
     assert {*QuantityName} == {*HELPS} | _NOT_HELPED | _BY_OPERATOR
+
+
+def test_a_height_helps_distances_that_count_it_alone() -> None:
+    for op in ('<=', '>='):
+        straight, level = (
+            {item.name for item in helps(quantity, op)}
+            for quantity in (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
+        )
+        assert straight - level == {'altitude_m'}
 
 
 def test_lost_sight_implicates_the_own_flight_with_a_reason(agsg: Agsg, failing: Failing) -> None:
