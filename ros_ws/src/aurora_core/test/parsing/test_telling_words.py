@@ -23,6 +23,10 @@ def _unread(prompt: str) -> list[str]:
     [
         ('Two drones hover at 30 m and 50 m for 20 s, one after the other.', 'one after'),
         ('Two drones hover at 30 m and 50 m for 20 s and land together.', 'together'),
+        (
+            'A pedestrian crosses when a car is 30 m away. The pedestrian waits 2 s first.',
+            'first',
+        ),
         ('A drone hovers at 40 m for 20 s, lands and takes off again.', 'takes off'),
         ('A drone hovers at 40 m for 20 s, lands, waits 10 s and takes off.', 'lands, waits'),
         ('A drone lands and then hovers over City Hall at 40 m.', 'lands and then hovers'),

@@ -345,6 +345,15 @@ def _first_phase(spec: ScenarioSpec, clause: Clause) -> bool:
     return not any(m.uav == n.uav for m in told for n in spec.missions[: spec.missions.index(m)])
 
 
+def _leads(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Something that comes after what a clause became, or the first of several phases."""
+    own = set(clause.ids)
+    after = {e.trigger.event for e in spec.events if isinstance(e.trigger, EventDoneTrigger)}
+    after |= {order.first for order in spec.orders}
+    flown = any(m.id in own for m in spec.missions) and _first_phase(spec, clause)
+    return bool(own & after) or flown
+
+
 def _differing(spec: ScenarioSpec, clause: Clause) -> bool:
     """`at 30 m and 50 m respectively`: no two numbers of a unit that two elements share."""
     elements = (*spec.missions, *spec.agents, *spec.events)
@@ -446,6 +455,7 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'time_of_day': _time_of_day,
     'event': _event,
     'first_phase': _first_phase,
+    'leads': _leads,
     'differing': _differing,
     'sequence': _sequence,
     'alone': _alone,
