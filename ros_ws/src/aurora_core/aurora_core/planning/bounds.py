@@ -23,7 +23,7 @@ from aurora_core.spec.scenario import (
     UavAction,
     UavMission,
 )
-from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.spec.vocabulary import MissionMode, Relation
 
 # Room between a default and a bound, for wind and for the lag behind a moving target (m).
 _ALTITUDE_ROOM_M = 1.5
@@ -37,6 +37,9 @@ _SIDE_M = 20.0
 _SIDE_LEAST_M = 10.0
 # Who is to be seen for a time is looked at for so many times that.
 _SEEN_AT_TIMES = 3.0
+# Who is in a row without more begins so far from the next one, middle to middle (m).
+_ROW_M = 30.0
+_IN_LINE = (Relation.AHEAD, Relation.BEHIND)
 # A trigger has to be passed, not touched (m).
 _PAST_M = 1.0
 # Share of a greatest distance in space that is altitude where both are free.
@@ -77,13 +80,23 @@ def bent(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
 
 
 def _placed(spec: ScenarioSpec, agent: GroundAgent) -> GroundAgent:
-    """Return an agent that starts as near to others as it is to stay."""
+    """Return an agent that starts as near to others as it is to stay.
+
+    Several that it is behind without more, to overtake them, stand one before the other.
+    """
+    related = {p.of for a in spec.agents for p in a.placements if a.id != agent.id}
+    related |= {a.id for a in spec.agents if a.placements}
     placements = []
+    row_m: dict[Relation, float] = {}
     for placed in agent.placements:
         gap = placed.distance_m
         if gap is not None and gap.provenance is Provenance.DEFAULT and placed.of is not None:
             bounds = stated_range(spec, (*_IN_THE_PLANE, *_IN_SPACE), {agent.id, placed.of})
-            value = min(max(bounds.near(gap.value, _GAP_ROOM_M), gap.low), gap.high)
+            begin_m = gap.value
+            if placed.relation in _IN_LINE and placed.of not in related:
+                begin_m = max(begin_m, row_m.get(placed.relation, -inf) + _ROW_M)
+                row_m[placed.relation] = begin_m
+            value = min(max(bounds.near(begin_m, _GAP_ROOM_M), gap.low), gap.high)
             placed = placed.model_copy(update={'distance_m': _moved(gap, value, bounds)})
         placements.append(placed)
     return agent.model_copy(update={'placements': tuple(placements)})

@@ -18,12 +18,13 @@ from aurora_core.spec.scenario import (
     AltitudeTrigger,
     Event,
     GroundAgent,
+    Placement,
     ScenarioSpec,
     StatedCondition,
     Uav,
     UavMission,
 )
-from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern, Side
+from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern, Relation, Side
 
 Make = Callable[..., Parameter]
 LIMITS = load_limits(config_path('limits.json'))
@@ -176,3 +177,21 @@ def test_a_duration_that_nobody_states_has_room_for_a_time_of_sight(
     (said,) = bent(spec, LIMITS).missions
     assert said.duration_s is not None
     assert said.duration_s.value == 30.0
+
+
+def test_several_who_are_overtaken_stand_one_before_the_other(parameter: Make) -> None:
+    def behind(other: str, metres: float, *, stated: bool = False) -> Placement:
+        gap = parameter(metres, explicit=stated)
+        return Placement(relation=Relation.BEHIND, of=other, distance_m=gap)
+
+    def gaps(*placements: Placement) -> list[float]:
+        agents = [GroundAgent(id=name, type=AgentType.CAR) for name in ('car1', 'car2', 'car3')]
+        ego = GroundAgent(id='ego', type=AgentType.CAR, placements=placements)
+        (*_, found) = bent(ScenarioSpec(prompt='x', agents=(*agents, ego)), LIMITS).agents
+        return [p.distance_m.value for p in found.placements if p.distance_m is not None]
+
+    first, second, third = gaps(behind('car1', 20.0), behind('car2', 20.0), behind('car3', 20.0))
+    assert first == 20.0
+    assert second - first >= 20.0
+    assert third - second >= 20.0
+    assert gaps(behind('car1', 20.0), behind('car2', 25.0, stated=True)) == [20.0, 25.0]
