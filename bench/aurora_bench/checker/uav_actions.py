@@ -126,14 +126,23 @@ def change_mission(
     best = any_of([j for j, _ in readings])
     segment = next(s for j, s in readings if j.outcome is best.outcome)
     start = float(case.scene.times[segment.start])
-    end = float(case.scene.times[min(segment.end, case.scene.recording.ticks - 1)])
-    return Acted(best, start, end if segment.closed else None)
+    # It has been done once the UAV is where the mission begins: what follows counts from there.
+    there = missions.captured_tick(_flight(case, action, uav, segment), action)
+    done = None if there is None else float(case.scene.times[there])
+    return Acted(best, start, done, done_from_s=start)
 
 
 def _change(
     case: Case, action: Mapping[str, Any], uav: str, segment: Segment, event: Mapping[str, Any]
 ) -> Any:
-    flight = Flight(
+    if case.missing(action.get('target')):
+        return does_not(f'there is no {action["target"]}')
+    requirement = {**action, 'id': event.get('id')}
+    return missions.judge(_flight(case, action, uav, segment), requirement)
+
+
+def _flight(case: Case, action: Mapping[str, Any], uav: str, segment: Segment) -> Flight:
+    return Flight(
         scene=case.scene,
         uav=uav,
         segment=segment,
@@ -141,10 +150,6 @@ def _change(
         variation=case.variation,
         until=segment.end,
     )
-    if case.missing(action.get('target')):
-        return does_not(f'there is no {action["target"]}')
-    requirement = {**action, 'id': event.get('id')}
-    return missions.judge(flight, requirement)
 
 
 def land(case: Case, uav: str, window: Window) -> Acted:

@@ -33,6 +33,7 @@ from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import (
     AgentAction,
     Event,
+    EventDoneTrigger,
     ScenarioSpec,
     SendMessage,
     UavAction,
@@ -81,6 +82,7 @@ class _EventState:
         acted: Its action was ordered.
         before_mps: Speed of the agent when it was, None when it has no speed to get to.
         climbs: A UAV on a mission goes on at another altitude.
+        flies: Mission that somebody waits for a UAV to capture.
         lane: Lane that the agent is to leave, None when it is to keep its lane.
         stepped_on: Where a person that crosses stepped onto the carriageway.
         done: Its action is complete.
@@ -91,6 +93,7 @@ class _EventState:
     acted: bool = False
     before_mps: float | None = None
     climbs: bool = False
+    flies: str | None = None
     lane: int | None = None
     stepped_on: Point3 | None = None
     done: bool = False
@@ -151,6 +154,9 @@ class EventRunner:
         self._before: dict[str, set[str]] = {
             e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}
             for e in events
+        }
+        self._waited_for = {
+            e.trigger.event for e in events if isinstance(e.trigger, EventDoneTrigger)
         }
         self._slowed_later = slowed_later(spec)
         self._heard_before = heard_before(spec)
@@ -224,7 +230,7 @@ class EventRunner:
             if state.triggered_tick is None:
                 continue
             if state.acted:
-                self._finish(state, tick, seen)
+                self._finish(state, tick, seen, machines)
                 continue
             due = tick >= state.triggered_tick + whole_ticks(event.waits_s, dt_s)
             due = due and self._may_follow(event, tick)
@@ -255,16 +261,29 @@ class EventRunner:
             state.climbs = any(
                 m.plan.id == action.uav and (m.on_mission or m.climbs_first) for m in machines
             )
-        if speed_mps is None and not state.climbs:
+        if isinstance(action, UavAction) and state.event.id in self._waited_for:
+            state.flies = action.mission
+        if speed_mps is None and not state.climbs and state.flies is None:
             state.done = True
             self._progress.done_tick[state.event.id] = tick + _shows_after(state.event)
             return
         state.before_mps = speed_mps
-        self._finish(state, tick, seen)
+        self._finish(state, tick, seen, machines)
 
-    def _finish(self, state: _EventState, tick: int, seen: Observation) -> None:
-        """Note that an action is complete: by the agent's speed or lane, or the altitude."""
+    def _finish(
+        self,
+        state: _EventState,
+        tick: int,
+        seen: Observation,
+        machines: Sequence[MissionMachine],
+    ) -> None:
+        """Note that an action is complete: by speed, lane, altitude or capture of a mission."""
         action = state.event.action
+        if state.flies is not None:
+            if any(state.flies in m.captured_missions for m in machines):
+                state.done = True
+                self._progress.done_tick[state.event.id] = tick
+            return
         if isinstance(action, UavAction) and action.altitude_m is not None:
             point = seen.position(action.uav)
             if point is not None and abs(point[2] - action.altitude_m.value) <= CLIMBED_M:

@@ -292,20 +292,24 @@ class Context:
             onset_mps2=moments.onset_mps2 if moments is not None else 0.0,
             actions=moments.actions if moments is not None else None,
             flights=flights,
-            captured=self._first_captured,
+            captured=self._captured,
             links=self.links,
             touchdown_m=touchdown_m,
         )
         return EventTimes(self.view, self.spec, rules)
 
-    def _first_captured(self, uav: str) -> int | None:
-        """Return when a UAV has captured its first mission, at the height that it states."""
+    def _captured(self, uav: str, mission: str | None) -> int | None:
+        """Return when a UAV has captured a mission, None: its first one, at its stated height."""
         touchdown_m = self.conditions[0].arguments.touchdown_m
-        first = next((m for m in self.mission_arguments if (m.uav, m.index) == (uav, 0)), None)
-        if first is None:
+        own = [m.id for m in self.spec.missions if m.uav == uav]
+        index = 0 if mission is None else own.index(mission) if mission in own else -1
+        flown = (m for m in self.mission_arguments if (m.uav, m.index) == (uav, index))
+        asked = next(flown, None)
+        if asked is None:
             return None
-        flight, body = self.flight(first, touchdown_m), self.view.body(uav)
-        return mission_phase(self.view, body, 0, flight, first.capture_rule).capture_tick
+        flight, body = self.flight(asked, touchdown_m), self.view.body(uav)
+        phase = mission_phase(self.view, body, index, flight, asked.capture_rule)
+        return phase.capture_tick
 
     def window(self, condition: Condition, after_s: float = 0.0) -> TickArray | Missing:
         """Return the ticks that a condition is about, or why there are none.

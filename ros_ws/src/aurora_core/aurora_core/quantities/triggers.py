@@ -110,7 +110,8 @@ class EventRules:
         onset_mps2: Change of speed with which slowing down or speeding up begins.
         actions: When the actions of ground agents are complete; None where no event is judged.
         flights: Phases of each UAV's flight.
-        captured: Gives the tick at which a UAV has captured its first mission, None if never.
+        captured: Gives the tick at which a UAV has captured its first mission, or the one of an
+            id; None if never.
         links: Links of the specification.
         touchdown_m: Height below which a UAV that reports landed is down.
     """
@@ -120,7 +121,7 @@ class EventRules:
     arrival_m: float
     actions: ActionRules | None
     flights: dict[str, FlightPhases]
-    captured: Callable[[str], int | None]
+    captured: Callable[[str, str | None], int | None]
     links: tuple[LinkModel, ...]
     touchdown_m: float = 0.0
 
@@ -182,7 +183,7 @@ class EventTimes:
         if first is None or flight is None:
             return start
         tracks = first.mode is MissionMode.TRACK
-        ready = self.rules.captured(sender) if tracks else flight.ascent_end_tick
+        ready = self.rules.captured(sender, None) if tracks else flight.ascent_end_tick
         return None if ready is None else max(start, ready)
 
     def hidden_s(self, event_id: str) -> float:
@@ -209,7 +210,12 @@ class EventTimes:
         return self.action_tick(event_id, trigger or 0)
 
     def _flown_tick(self, action: UavAction, begins: int | None) -> int | None:
-        """Return when a UAV has done what it is told to: it is up where it climbs to."""
+        """Return when a UAV has done what it is told to.
+
+        It is up where it climbs to, and has captured the mission that it changes to.
+        """
+        if begins is not None and action.mission is not None:
+            return self.rules.captured(action.uav, action.mission)
         flight = self.rules.flights.get(action.uav)
         if begins is None or action.altitude_m is None or flight is None:
             return begins
@@ -406,7 +412,7 @@ class EventTimes:
         """Return the tick from which on a trigger counts, None where that never comes."""
         action = event.action
         if isinstance(action, UavAction) and counts_from_capture(self.spec, event):
-            return self.rules.captured(action.uav)
+            return self.rules.captured(action.uav, None)
         return 0
 
     def _before_change(self, trigger: StateTrigger, mask: BoolArray) -> BoolArray:

@@ -658,3 +658,17 @@ def test_what_changes_a_flight_waits_until_that_has_begun(
         scene.fly('uav1', 10.0, 0.0, 30.0).step(4)
         assert machine.first_capture_tick is not None
         assert [tick for tick, _ in _triggered(scene)] == [machine.first_capture_tick]
+
+
+def test_who_takes_over_has_done_so_once_it_is_there(stage: Build, parameter: Make) -> None:
+    """The first one leaves when the second one tracks, not when that takes off."""
+    comes = TimeTrigger(on='time', at_s=parameter(1.0, 's'))
+    takes = UavAction(do='change_mission', uav='uav1', mission='m0')
+    leaves = EventDoneTrigger(on='event_done', event='e1')
+    over = _event(comes, takes)
+    scene = stage(events=(over, _event(leaves, AgentAction(do='stop', agent='ego'), id='e2')))
+    scene.put('van1', 60.0).follow(400)
+    machine = scene.machines[0]
+    assert machine.first_capture_tick is not None
+    assert machine.first_capture_tick > 40
+    assert _triggered(scene) == [(20, 'e1'), (machine.first_capture_tick, 'e2')]

@@ -194,7 +194,7 @@ def _times(
         arrival_m=15.0,
         actions=action_rules(tb.TOLERANCES),
         flights={'uav1': flight_phases(view, view.body('uav1'), 30.0, 2.0, 0.3)},
-        captured=lambda _uav: 150,
+        captured=lambda _uav, _mission: 150,
         links=(),
     )
     return EventTimes(view, request, rules)
