@@ -220,6 +220,13 @@ def _over_time(
         why = f'{why}: {inner:.1%} of {need:.0%}'
         both = (inner >= need - EPSILON, outer >= need - EPSILON)
         return graded(all(both), any(both), why)
+    flies = any(case.scene.bodies[b].is_uav for n in requirement['of'] for b in case.bodies(n))
+    if requirement['quantity'] == 'speed' and op in ('>', '>=') and not flies:
+        # Everybody stands at first: who is never to be slower is so from then on.
+        reached = np.flatnonzero(true & counted)
+        if not len(reached):
+            return does_not(f'{why}: never')
+        counted = counted & (np.arange(len(row)) >= reached[0])
     bad = int((~true[counted]).sum())
     return decide(bad == 0, f'{why}; {bad * dt_s:.2f} s of {counted.sum() * dt_s:.1f} s outside')
 

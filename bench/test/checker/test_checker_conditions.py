@@ -65,6 +65,22 @@ def test_a_condition_on_a_uav_counts_in_its_mission(stage: Any) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ('way_m', 'outcome'),
+    [
+        ((0, 60, 160, 560), 'holds'),
+        ((0, 60, 160, 360), 'does_not'),
+        ((0, 60, 120, 240), 'does_not'),
+    ],
+    ids=['faster', 'slower again', 'never so fast'],
+)
+def test_who_is_never_to_be_slower_is_so_once_it_has_been_as_fast(
+    stage: Any, way_m: tuple[float, ...], outcome: str
+) -> None:
+    stage.ground('car1', 'car', np.interp(stage.t, [0, 10, 20, 60], way_m), 0.0)
+    assert stage.says(_of('speed', 'car1', op='>=', value=9.0)) == outcome
+
+
 def test_speed_and_separation(stage: Any) -> None:
     _two(stage)
     assert stage.says(_of('speed', 'car1', op='<=', value=8.0)) == 'holds'

@@ -29,7 +29,7 @@ from aurora_core.judging.quantities.event_time import EventTime
 from aurora_core.judging.quantities.horizontal_distance import HorizontalDistance
 from aurora_core.judging.quantities.hover_drift import HoverDrift
 from aurora_core.judging.quantities.separation import Separation
-from aurora_core.judging.quantities.speed import Speed
+from aurora_core.judging.quantities.speed import Speed, SpeedAfterMoving
 from aurora_core.judging.quantities.tracked_fraction import TrackedFraction
 from aurora_core.judging.quantities.visible_fraction import VisibleFraction
 from aurora_core.judging.quantities.visible_time import VisibleTime
@@ -175,6 +175,8 @@ def _series(inputs: Inputs, stated: StatedCondition, suffix: str = '') -> Condit
             raise CannotSayError('a share together with a stretch or a deadline')
         when = _when(inputs, stated, missions_of(inputs, stated))
         return _share(inputs, stated, of, target, when, suffix)
+    if _is_floor(inputs, stated):
+        return _kept_speed(inputs, stated, of, target, suffix)
     # A deadline counts from scenario start, not from the phase.
     when = _When(window=Window.RUN)
     if stated.by_s is None:
@@ -190,6 +192,28 @@ def _series(inputs: Inputs, stated: StatedCondition, suffix: str = '') -> Condit
         source=source_of(stated),
         hold_s=value_of(stated.hold_s),
         by_s=value_of(stated.by_s),
+    )
+
+
+def _is_floor(inputs: Inputs, stated: StatedCondition) -> bool:
+    """Whether somebody on the ground is never to be slower: all stand at first."""
+    grounded = {agent.id for agent in inputs.spec.agents}
+    bounded = stated.hold_s is not None or stated.by_s is not None
+    floor = stated.quantity == 'speed' and stated.op in ('>', '>=') and stated.value.value > 0.0
+    return floor and not bounded and bool(grounded & set(stated.of))
+
+
+def _kept_speed(
+    inputs: Inputs, stated: StatedCondition, of: tuple[str, ...], target: Target, suffix: str
+) -> Condition:
+    """Return that somebody is not slower any more once it has been as fast."""
+    return condition(
+        id=f'{stated.id}.holds{suffix}',
+        sentence=f'{sentence_of(stated)} from when it is first driven on',
+        of=of,
+        target=target,
+        arguments=SpeedAfterMoving(**inputs.common, moving_mps=stated.value.value),
+        source=source_of(stated),
     )
 
 

@@ -176,3 +176,23 @@ def test_what_is_asked_of_several_is_asked_of_each_all_along(tb: ModuleType) -> 
         ('c1.holds.ego', ('ego',)),
     ]
     assert {c.arguments.window for c in made} == {Window.RUN}
+
+
+def test_who_is_never_to_be_slower_is_so_once_it_has_been_as_fast(tb: ModuleType) -> None:
+    mps = {'value': tb.number(9.0, Unit.METRE_PER_SECOND)}
+    (made,) = _stated(_derive(tb, tb.tailgate_case(), 'speed', ('van1',), op='>=', **mps))
+    assert made.arguments.kind == 'speed_after_moving'
+    assert made.arguments.moving_mps == 9.0
+    assert 'from when it is first driven on' in made.sentence
+    (held,) = _stated(
+        _derive(
+            tb,
+            tb.tailgate_case(),
+            'speed',
+            ('van1',),
+            op='>=',
+            hold_s=tb.number(5.0, Unit.SECOND),
+            **mps,
+        )
+    )
+    assert held.arguments.kind == 'speed'
