@@ -112,7 +112,7 @@ class ControlParameters:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnergyParameters:
-    """What a flight takes from the battery; flights do not end by it, plans ask for it.
+    """What a flight takes from the battery (`battery.flight_power_w`).
 
     Attributes:
         battery_wh: Energy of the full battery; ours, so that the endurance of a hover exceeds the

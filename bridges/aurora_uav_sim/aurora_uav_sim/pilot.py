@@ -226,7 +226,7 @@ class Pilot:
             self.vehicle.home = (autopilot.body.x, autopilot.body.y, autopilot.body.z)
         self._was_armed = autopilot.armed
         if not autopilot.landed:
-            self.battery.step(h)
+            self.battery.step(h, autopilot.body, autopilot.wind)
             self._watch()
         if autopilot.mode is FlightMode.RETURN and self._way_home is not None:
             self._way_home.step(h)

@@ -31,7 +31,8 @@ class AutopilotSettings:
             emergency.
         battery_low: State of charge below which it is low (battery_critical, battery_emergency).
         battery_cells: In series (battery_charged_v, battery_empty_v: of one cell).
-        battery_endurance_s: A full battery lasts so long in the air; 25 min, the contract's limit.
+        battery_endurance_s: A full battery lasts so long in the air, however it flies; 0: until
+            the rotors have taken its energy.
         battery_floor_percent: It is never emptier than this.
         disarm_landed_s: Disarms so long after touchdown.
         disarm_preflight_s: Disarms so long after arming without take-off.
@@ -67,7 +68,7 @@ class AutopilotSettings:
     battery_cells: float = 4.0
     battery_charged_v: float = 4.05
     battery_empty_v: float = 3.6
-    battery_endurance_s: float = 1500.0
+    battery_endurance_s: float = 0.0
     battery_floor_percent: float = 0.0
     disarm_landed_s: float = 2.0
     disarm_preflight_s: float = 10.0
@@ -113,7 +114,7 @@ def _one_of(name: str, attribute: str, *values: int) -> Parameter:
 
 # Source of names, types and ranges: PX4 parameter reference; speeds are capped by what the
 # vehicle does, cells by what BATTERY_STATUS carries. Of an action the values are left out that
-# this vehicle cannot do.
+# this vehicle cannot do. A drain of 0 is ours: the battery empties by what the rotors take.
 PARAMETERS = (
     _whole('BAT1_N_CELLS', 'battery_cells', 1, 14),
     _real('BAT1_V_CHARGED', 'battery_charged_v', 3.7, 4.5),
@@ -147,7 +148,7 @@ PARAMETERS = (
     _real('RTL_RETURN_ALT', 'return_altitude_m', 0.0, 150.0),
     _real('SIH_WIND_E', 'wind_east_mps', -15.0, 15.0),
     _real('SIH_WIND_N', 'wind_north_mps', -15.0, 15.0),
-    _real('SIM_BAT_DRAIN', 'battery_endurance_s', 1.0, 86_400.0),
+    _real('SIM_BAT_DRAIN', 'battery_endurance_s', 0.0, 86_400.0),
     _real('SIM_BAT_MIN_PCT', 'battery_floor_percent', 0.0, 100.0),
 )
 PARAMETER_INDEX = {row.name: index for index, row in enumerate(PARAMETERS)}
