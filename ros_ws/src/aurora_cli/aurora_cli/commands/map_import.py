@@ -48,7 +48,9 @@ def import_command(
     if measured:
         begin_s = time.monotonic()
         with quiet_stdout():
-            records = measure(done.model, lambda step: say(f'aurora: measure: {step}')).records
+            records = measure(
+                done.model, lambda step: say(f'aurora: measure: {step}'), again=False
+            ).records
         seconds['measure'] = round(time.monotonic() - begin_s, 3)
     facts = {
         **_facts(done, records),

@@ -63,7 +63,13 @@ def _lines(done: Measured) -> Iterator[str]:
     yield f'vehicles: {len(done.types)} types driven'
     yield (
         f'multirotor: {uav.speed_mps:.1f} m/s, climb {uav.climb_mps:.1f} m/s, descent '
-        f'{uav.descent_mps:.1f} m/s, hover for {uav.endurance_s / 60.0:.1f} min'
+        f'{uav.descent_mps:.1f} m/s, hover for {uav.hover_s / 60.0:.1f} min'
+    )
+    shortest = min(uav.endurances, key=lambda row: row.endurance_s)
+    yield (
+        f'  its battery lasts {shortest.endurance_s / 60.0:.1f} min at {shortest.speed_mps:g} m/s '
+        f'in a wind of {shortest.mean_mps:g} m/s; messages reach {uav.reach_sight_m:g} m, past a '
+        f'wall {uav.reach_blocked_m:g} m'
     )
     yield from (f'  {text}' for text in done.lower_limits)
     for path in done.files:

@@ -17,6 +17,7 @@ from aurora_cli.installed import forget
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.map_measure.flights import measure_multirotor
 from aurora_cli.map_measure.write import write_records
+from aurora_core.errors import ConfigError
 from aurora_core.geometry.prism import Prism
 from aurora_core.grounding.airspace import building_prisms
 from aurora_core.knowledge import agent_types, uav_record
@@ -49,7 +50,12 @@ from aurora_core.knowledge.measured_on import ground_basis, uav_basis, vtypes_pa
 from aurora_core.knowledge.reach import edge_parts
 from aurora_core.knowledge.settings import load_settings
 from aurora_core.knowledge.sight_shares import CornerShare, SightShare, corner_shares, sight_shares
-from aurora_core.knowledge.uav_record import UavRecord, limits_in_force, planned_clearance_m
+from aurora_core.knowledge.uav_record import (
+    UavRecord,
+    limits_in_force,
+    load_uav_record,
+    planned_clearance_m,
+)
 from aurora_core.spec.vocabulary import AgentType
 from aurora_sumo_bridge.drive_probe import measure_types
 from aurora_sumo_bridge.spawn_probe import Spot, probe_spawns
@@ -76,7 +82,7 @@ class Measured:
     seconds: dict[str, float] = field(default_factory=dict)
 
 
-def measure(model: MapModel, tell: Tell) -> Measured:
+def measure(model: MapModel, tell: Tell, *, again: bool = True) -> Measured:
     """Measure the vehicle models and a map, and write their records.
 
     Nothing is written before all is measured, so that Ctrl-C leaves what was there.
@@ -84,6 +90,7 @@ def measure(model: MapModel, tell: Tell) -> Measured:
     Args:
         model: Map.
         tell: Is told each step before it is done.
+        again: Fly the multirotor whether or not its record is of what is installed.
 
     Raises:
         AuroraError: A simulator fails, or a record cannot be written.
@@ -95,7 +102,8 @@ def measure(model: MapModel, tell: Tell) -> Measured:
         names = sorted(kind.value for kind in AgentType)
         types = measure_types(vtypes_path(), names, dt_s, lambda _: None)
     with _timed(seconds, 'multirotor', tell):
-        multirotor = measure_multirotor(dt_s, limits)
+        known = None if again else _known_multirotor()
+        multirotor = known or measure_multirotor(dt_s, limits)
     clearance_m = planned_clearance_m(load_settings(), limits, multirotor)
     with _timed(seconds, 'lane samples', tell):
         samples = sample_lanes(model)
@@ -156,6 +164,14 @@ def measure(model: MapModel, tell: Tell) -> Measured:
         )
     forget()
     return done
+
+
+def _known_multirotor() -> UavRecord | None:
+    """Return the record of the multirotor where it is of what is installed."""
+    try:
+        return load_uav_record()
+    except ConfigError:
+        return None
 
 
 @contextmanager

@@ -22,6 +22,7 @@ from aurora_cli.map_measure import measure
 from aurora_cli.testing.small_maps import xodr
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_root
 from aurora_core.knowledge.map_model import load_map
+from aurora_core.knowledge.uav_record import load_uav_record
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.pipeline.background import registries
 from aurora_core.pipeline.functions import parse_stage
@@ -88,6 +89,7 @@ def test_measuring_again_changes_no_byte(config: Path, call: Call) -> None:
     assert call('map', 'measure', 'junction').code == first.code == 0
     assert _files(config) == before
     assert 'car stands at' in first.out
+    assert 'messages reach 500 m, past a wall 200 m' in first.out
     assert 'in force' not in first.out
 
 
@@ -202,6 +204,39 @@ def test_a_clearance_that_changes_is_measured_again(config: Path, call: Call) ->
     assert 'measured with clearance_m 5.0, here is 6.7' in refused.out
     assert call('map', 'measure', 'junction').code == 0
     assert call('check', '--map', 'junction', TRUCK).code == 0
+
+
+def test_a_link_range_that_changes_is_sent_over_again(config: Path, call: Call) -> None:
+    far = (
+        'A drone hovers over the ego car at 100 m and sends it a message at 60 s. The drone is '
+        'never closer than 80 m to the ego car.'
+    )
+    assert call('check', '--map', 'junction', far).code == 0
+    _edit(config / 'limits.json', '"link_range_sight_m": 500.0', '"link_range_sight_m": 60.3')
+    _edit(config / 'limits.json', '"link_range_blocked_m": 200.0', '"link_range_blocked_m": 25.0')
+    installed.forget()
+    refused = call('check', '--map', 'junction', far)
+    assert refused.code == 4
+    assert 'measured with link_range_sight_m 500.0, here is 60.3' in refused.out
+    done = json.loads(call('map', 'measure', 'junction', '--json').out)['multirotor']
+    assert (done['reach_sight_m'], done['reach_blocked_m']) == (60.3, 25.0)
+    received = [(row['with_sight'], row['without_sight']) for row in done['link']]
+    assert received == [(1.0, 0.0), (0.0, 0.0)]  # 50 m, 100 m
+    assert call('check', '--map', 'junction', far).code == 5
+
+
+def test_a_battery_is_flown_until_it_is_empty(config: Path, call: Call) -> None:
+    """Rotors that take twice the power halve every flight, and what is offered."""
+    long = 'A drone hovers over the intersection at 40 m for 1200 seconds.'
+    before = load_uav_record()
+    assert call('check', '--map', 'junction', long).code == 0
+    _edit(config / 'multirotor.json', '"efficiency": 0.55', '"efficiency": 0.275')
+    done = json.loads(call('map', 'measure', 'junction', '--json').out)
+    for new, old in zip(done['multirotor']['endurances'], before.endurances, strict=True):
+        # The climb of each takes more than a hover, and less than a fast flight.
+        assert -15.0 < new['endurance_s'] - old.endurance_s / 2.0 < 45.0
+    assert any('uav_endurance_s is ' in text for text in done['lower_limits'])
+    assert call('check', '--map', 'junction', long).code == 5
 
 
 @pytest.mark.parametrize(

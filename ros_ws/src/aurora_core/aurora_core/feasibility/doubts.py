@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from math import ceil, hypot, isfinite
+from math import ceil, hypot, inf, isfinite
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
@@ -16,10 +16,10 @@ from aurora_core.feasibility.times import check_times
 from aurora_core.feasibility.zones import place_distances
 from aurora_core.knowledge.limits import EXACT, Limits, Tolerances, hover_drift_limit_m
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.knowledge.uav_record import UavRecord
+from aurora_core.knowledge.uav_record import RESERVE, UavRecord
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.reference import LANDMARK
-from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage
+from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage, UavMission
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern
 
@@ -77,6 +77,7 @@ def doubts(
     yield from _short_legs(spec, tolerances, uav)
     if uav is not None:
         yield from _strong_wind(spec, limits, tolerances, uav)
+        yield from _empty_batteries(spec, limits, uav)
 
 
 def _off_the_streets(spec: ScenarioSpec, map_model: MapModel) -> Iterator[str]:
@@ -155,12 +156,9 @@ def _strong_wind(
     spec: ScenarioSpec, limits: Limits, tolerances: Tolerances, uav: UavRecord
 ) -> Iterator[str]:
     """A hover in wind that was measured to push the multirotor farther than it may drift."""
-    world = spec.world
-    mean_mps = limits.wind_mean_mps[world.weather.value]
-    if world.wind_mps is not None:
-        mean_mps = least(world.wind_mps, 0.0, 0.0)
-    drift_m = uav.drift_m(mean_mps, limits.wind_gust_mps[world.weather.value])
-    allowed_m = hover_drift_limit_m(world, limits, tolerances)
+    mean_mps, gust_mps = _wind_mps(spec, limits)
+    drift_m = uav.drift_m(mean_mps, gust_mps)
+    allowed_m = hover_drift_limit_m(spec.world, limits, tolerances)
     if drift_m <= allowed_m:
         return
     known = f'to drift {drift_m:.1f} m' if isfinite(drift_m) else 'in no such gusts'
@@ -169,6 +167,43 @@ def _strong_wind(
             f'{mission.uav} was measured {known} in a wind of {mean_mps:g} m/s; it hovers within '
             f'{allowed_m:g} m.'
         )
+
+
+def _wind_mps(spec: ScenarioSpec, limits: Limits) -> tuple[float, float]:
+    """Return the mean wind and the gusts that a request asks for at least."""
+    world = spec.world
+    mean_mps = limits.wind_mean_mps[world.weather.value]
+    if world.wind_mps is not None:
+        mean_mps = least(world.wind_mps, 0.0, 0.0)
+    return mean_mps, limits.wind_gust_mps[world.weather.value]
+
+
+def _empty_batteries(spec: ScenarioSpec, limits: Limits, uav: UavRecord) -> Iterator[str]:
+    """Phases of one UAV that last longer than a battery did at their speeds in that wind."""
+    wind = _wind_mps(spec, limits)
+    for flown in spec.uavs:
+        asked_s, share = 0.0, 0.0
+        for mission in (m for m in spec.missions if m.uav == flown.id):
+            lasts_s = least(mission.duration_s, 0.0, 0.0)
+            asked_s += lasts_s
+            battery_s = uav.endurance_s(_asked_mps(spec, mission, limits), *wind) / RESERVE
+            share += lasts_s / battery_s if battery_s > 0.0 else inf if lasts_s > 0.0 else 0.0
+        if share > 1.0:
+            known_s = asked_s / share
+            yield (
+                f'{flown.id} flies for {asked_s:g} s at least; by what was measured its battery '
+                f'is good for {known_s:.0f} s at such speeds in such a wind.'
+            )
+
+
+def _asked_mps(spec: ScenarioSpec, mission: UavMission, limits: Limits) -> float:
+    """Return the speed at which a mission is flown as stated: its own, or of whom it tracks."""
+    speeds = [mission.speed_mps]
+    if mission.mode is MissionMode.TRACK:
+        tracked = next((a for a in spec.agents if a.id == mission.target), None)
+        speeds += [b.speed_mps for b in tracked.behaviors] if tracked is not None else []
+    asked_mps = max((least(speed, 0.0, 0.0) for speed in speeds), default=0.0)
+    return min(asked_mps, limits.uav_speed_max_mps)
 
 
 def _short_legs(

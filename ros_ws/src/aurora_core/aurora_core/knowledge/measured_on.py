@@ -11,10 +11,11 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from importlib import metadata
+from importlib.util import find_spec
 from pathlib import Path
 
 from aurora_core.errors import ConfigError
-from aurora_core.files import MAP_BYTES, read_bytes
+from aurora_core.files import CONFIG_BYTES, MAP_BYTES, read_bytes
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.vocabulary import Weather
@@ -24,6 +25,9 @@ Made = Mapping[str, str | float]
 _DEFAULT_MAP = 'downtown'
 # Distribution that carries the ground simulator.
 _SIMULATOR = 'libsumo'
+# Package that carries the air simulator, and its files that decide how a vehicle flies.
+_AIR_SIMULATOR = 'aurora_uav_sim'
+_FLIGHT_FILES = ('autopilot.py', 'battery.py', 'control.py', 'multirotor.py', 'wind.py')
 
 
 def measure_command(map_name: str = '') -> str:
@@ -39,6 +43,16 @@ def simulator_version() -> str:
         return metadata.version(_SIMULATOR)
     except metadata.PackageNotFoundError:
         return ''
+
+
+def air_simulator_sha256() -> str:
+    """Return the digest (hex) of the code that flies, '' where no air simulator is installed."""
+    found = find_spec(_AIR_SIMULATOR)
+    folder = None if found is None or found.origin is None else Path(found.origin).parent
+    if folder is None:
+        return ''
+    data = b''.join(read_bytes(folder / name, CONFIG_BYTES) for name in _FLIGHT_FILES)
+    return hashlib.sha256(data).hexdigest()
 
 
 def file_sha256(path: Path) -> str:
@@ -75,6 +89,7 @@ def uav_basis(dt_s: float, limits: Limits) -> dict[str, str | float]:
         limits: Whose link ranges and winds it is measured at.
     """
     return {
+        'air_simulator': air_simulator_sha256(),
         'multirotor_sha256': file_sha256(config_path('multirotor.json')),
         'dt_s': dt_s,
         'link_range_sight_m': limits.link_range_sight_m,
@@ -96,7 +111,7 @@ def weather_winds(limits: Limits) -> dict[str, tuple[float, float]]:
 def check_made_of(path: Path, made: Made, here: Made, map_name: str = '') -> None:
     """Refuse records that were made of something else than what is installed.
 
-    Where no ground simulator is installed, nothing can run on it: its version is not compared.
+    Where a simulator is not installed, nothing can run on it: it is not compared.
 
     Args:
         path: File of the records.
@@ -108,7 +123,7 @@ def check_made_of(path: Path, made: Made, here: Made, map_name: str = '') -> Non
         ConfigError: They differ; says in what, and the command that measures again.
     """
     for name, value in here.items():
-        if name == 'simulator' and not value:
+        if name in ('simulator', 'air_simulator') and not value:
             continue
         if made.get(name) != value:
             raise ConfigError(

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import Self
 
-from pydantic import ValidationError
+from pydantic import ValidationError, model_validator
 
 from aurora_core.document import Document, first_problem
 from aurora_core.errors import ConfigError
@@ -65,12 +66,21 @@ class DriftRow(Document):
     drift_m: NotNegative
 
 
+class EnduranceRow(Document):
+    """A flight on one battery, the climb included: a hover, or there and back at a speed."""
+
+    speed_mps: NotNegative
+    mean_mps: NotNegative
+    gust_mps: NotNegative
+    endurance_s: Positive
+
+
 class LinkRow(Document):
-    """A message over a distance: is it received, with sight and without?"""
+    """Messages over a distance: which share is received, with sight and past a wall?"""
 
     distance_m: Positive
-    with_sight: bool
-    without_sight: bool
+    with_sight: NotNegative
+    without_sight: NotNegative
 
 
 class UavRecord(Document):
@@ -82,12 +92,13 @@ class UavRecord(Document):
         descent_mps: Downwards, positive.
         acceleration_mps2: Average from a hover to 0.9 of the speed.
         braking_mps2: Average from the speed to a hover.
-        power_w: Mean mechanical power of a hover, by momentum theory (see `endurance_s`).
-        endurance_s: Flight on the battery of the model at that power.
+        endurances: Flights until the battery is empty but for its reserve.
         braking: Stops.
         turns: Corners.
         lags: Moving points.
         drifts: Hovers in wind.
+        reach_sight_m: Greatest distance over which messages are received with sight.
+        reach_blocked_m: The same past a wall.
         link: Messages, at the ranges of `limits.json`.
     """
 
@@ -96,13 +107,43 @@ class UavRecord(Document):
     descent_mps: Positive
     acceleration_mps2: Positive
     braking_mps2: Positive
-    power_w: Positive
-    endurance_s: Positive
+    endurances: tuple[EnduranceRow, ...]
     braking: tuple[BrakingRow, ...]
     turns: tuple[TurnRow, ...]
     lags: tuple[LagRow, ...]
     drifts: tuple[DriftRow, ...]
+    reach_sight_m: NotNegative
+    reach_blocked_m: NotNegative
     link: tuple[LinkRow, ...]
+
+    @model_validator(mode='after')
+    def _has_a_hover(self) -> Self:
+        if (0.0, 0.0, 0.0) not in {(r.speed_mps, r.mean_mps, r.gust_mps) for r in self.endurances}:
+            raise ValueError('endurances lack a hover in calm air')
+        return self
+
+    @property
+    def hover_s(self) -> float:
+        """Endurance of a hover in calm air, seconds."""
+        return self.endurance_s(0.0, 0.0, 0.0)
+
+    def endurance_s(self, speed_mps: float, mean_mps: float, gust_mps: float) -> float:
+        """Return how long a battery lasts at a speed in a wind, seconds; 0 beyond those measured.
+
+        It is that of the worst of the flights around: a little wind may take less than none.
+        """
+        speeds = _around(speed_mps, (r.speed_mps for r in self.endurances))
+        rows = self.endurances
+        stronger = [r for r in rows if r.mean_mps >= mean_mps and r.gust_mps >= gust_mps]
+        weaker = [r for r in rows if r.mean_mps <= mean_mps and r.gust_mps <= gust_mps]
+        found = [
+            row.endurance_s
+            for near, nearest in ((stronger, min), (weaker, max))
+            for row in near
+            if row.speed_mps in speeds
+            and (row.mean_mps, row.gust_mps) == nearest((r.mean_mps, r.gust_mps) for r in near)
+        ]
+        return min(found) if stronger and speeds else 0.0
 
     def stop_m(self, speed_mps: float) -> float:
         """Return the way of a stop from a speed, metres."""
@@ -126,9 +167,16 @@ class UavRecord(Document):
         return min(met, default=math.inf)
 
     def received_m(self, *, with_sight: bool) -> float:
-        """Return the greatest distance over which a message was received, metres."""
-        rows = (r for r in self.link if (r.with_sight if with_sight else r.without_sight))
-        return max((r.distance_m for r in rows), default=0.0)
+        """Return the greatest distance over which messages are received, metres."""
+        return self.reach_sight_m if with_sight else self.reach_blocked_m
+
+
+def _around(value: float, known: Iterable[float]) -> frozenset[float]:
+    """Return the next smaller and the next greater of the known values; nothing outside them."""
+    values = sorted(known)
+    if not values or not values[0] <= value <= values[-1]:
+        return frozenset()
+    return frozenset((max(v for v in values if v <= value), min(v for v in values if v >= value)))
 
 
 def _at_least(rows: Iterable[tuple[float, float]], speed_mps: float) -> float:
@@ -166,11 +214,18 @@ def possible_limits(limits: Limits, record: UavRecord) -> Limits:
         'uav_speed_max_mps': record.speed_mps,
         'uav_climb_max_mps': record.climb_mps,
         'uav_descent_max_mps': record.descent_mps,
-        'uav_endurance_s': record.endurance_s,
+        'uav_endurance_s': record.hover_s,
     }
     found = {
         name: min(getattr(limits, name), max(1.0, math.floor(_STEPS * value / RESERVE)) / _STEPS)
         for name, value in most.items()
+    }
+    found |= {
+        name: min(getattr(limits, name), reach_m)
+        for name, reach_m in (
+            ('link_range_sight_m', max(record.reach_sight_m, 1.0 / _STEPS)),
+            ('link_range_blocked_m', record.reach_blocked_m),
+        )
     }
     return Limits.model_validate(limits.model_dump() | found)
 

@@ -27,8 +27,12 @@ _OF_THE_UAV = {
     'uav_speed_max_mps': 'speed_mps',
     'uav_climb_max_mps': 'climb_mps',
     'uav_descent_max_mps': 'descent_mps',
-    'uav_endurance_s': 'endurance_s',
 }
+_OF_THE_LINK = {
+    'link_range_sight_m': 'reach_sight_m',
+    'link_range_blocked_m': 'reach_blocked_m',
+}
+_LEAST_REACH_M = {'link_range_sight_m': 0.1, 'link_range_blocked_m': 0.0}
 # A landmark so near to a building stands in it.
 _BESIDE_M = 1.0
 
@@ -42,10 +46,21 @@ def read_limits() -> dict[str, Any]:
     """Return the limits in force: what is configured, nowhere beyond what the UAV can do."""
     table: dict[str, Any] = read_config('limits.json')
     uav = read_config('knowledge', 'measured', 'multirotor.json')['multirotor']
-    for limit, measured in _OF_THE_UAV.items():
-        most = max(1.0, math.floor(10.0 * float(uav[measured]) / _UAV_RESERVE)) / 10.0
+    done = {limit: float(uav[measured]) for limit, measured in _OF_THE_UAV.items()}
+    done['uav_endurance_s'] = _hover_s(uav)
+    for limit, value in done.items():
+        most = max(1.0, math.floor(10.0 * value / _UAV_RESERVE)) / 10.0
         table[limit] = min(float(table[limit]), most)
+    for limit, measured in _OF_THE_LINK.items():
+        reach_m = max(float(uav[measured]), _LEAST_REACH_M[limit])
+        table[limit] = min(float(table[limit]), reach_m)
     return table
+
+
+def _hover_s(uav: Any) -> float:
+    """Return how long one battery lasted in a hover in calm air, seconds."""
+    still = ('speed_mps', 'mean_mps', 'gust_mps')
+    return next(float(r['endurance_s']) for r in uav['endurances'] if not any(r[k] for k in still))
 
 
 def read_map_file(name: str, file: str) -> Any:

@@ -7,9 +7,11 @@ from __future__ import annotations
 import pytest
 from requests_by_hand import judged, map_of
 
+from aurora_core.feasibility.doubts import doubts
 from aurora_core.feasibility.limits import check_limits
 from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.limits import load_limits
+from aurora_core.knowledge.limits import load_limits, load_tolerances
+from aurora_core.knowledge.uav_record import load_uav_record
 from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
@@ -155,6 +157,25 @@ def test_hovers_out_of_reach_of_each_other_are_doubted() -> None:
     assert (far.result, far.certificates) == (Feasibility.UNKNOWN, ())
     assert any('link reaches 100 m' in note for note in far.notes)
     assert not any('their link' in note for note in near.notes)
+
+
+def test_a_flight_that_was_measured_to_empty_the_battery_is_doubted() -> None:
+    """A hover of 20 minutes is flown; the same at full speed, or held in a storm, may not be."""
+
+    def told(prompt: str) -> list[str]:
+        spec = _read(prompt)
+        limits = load_limits(config_path('limits.json'))
+        tolerances = load_tolerances(config_path('tolerances.json'))
+        found = doubts(spec, map_of('downtown'), limits, tolerances, load_uav_record())
+        return [text for text in found if 'battery' in text]
+
+    patrol = 'A drone patrols four waypoints at {} m/s at 60 m for 1300 seconds.'
+    assert told('A drone hovers over City Hall at 60 m for 1300 seconds.') == []
+    assert told(patrol.format(8)) == []
+    (fast,) = told(patrol.format(18))
+    assert 'for 1300 s at least' in fast
+    (long,) = told('A drone hovers over City Hall at 60 m for 1400 seconds in a wind of 15 m/s.')
+    assert 'for 1400 s at least' in long
 
 
 def test_a_vehicle_that_is_to_come_nearer_than_any_street_is_doubted() -> None:

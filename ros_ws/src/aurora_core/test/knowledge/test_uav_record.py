@@ -35,7 +35,9 @@ def test_every_figure_exceeds_its_limit_by_fifteen_percent() -> None:
     assert record.speed_mps >= 1.15 * limits.uav_speed_max_mps
     assert record.climb_mps >= 1.15 * limits.uav_climb_max_mps
     assert record.descent_mps >= 1.15 * limits.uav_descent_max_mps
-    assert record.endurance_s >= 1.15 * limits.uav_endurance_s
+    assert record.hover_s >= 1.15 * limits.uav_endurance_s
+    assert record.reach_sight_m >= limits.link_range_sight_m
+    assert record.reach_blocked_m >= limits.link_range_blocked_m
 
 
 def test_faster_means_longer_stops_wider_turns_and_more_lag() -> None:
@@ -79,7 +81,8 @@ def test_a_weaker_vehicle_is_planned_to_do_less(measured: str, planned: str, val
         ('speed_mps', 'uav_speed_max_mps', 11.5, 10.0),
         ('climb_mps', 'uav_climb_max_mps', 2.3, 2.0),
         ('descent_mps', 'uav_descent_max_mps', 1.15, 1.0),
-        ('endurance_s', 'uav_endurance_s', 1150.0, 1000.0),
+        ('reach_sight_m', 'link_range_sight_m', 320.5, 320.5),
+        ('reach_blocked_m', 'link_range_blocked_m', 0.0, 0.0),
     ],
 )
 def test_no_limit_asks_for_more_than_the_vehicle_can_do(
@@ -91,6 +94,28 @@ def test_no_limit_asks_for_more_than_the_vehicle_can_do(
     assert possible.model_dump() == limits.model_dump() | {limit: least}
     # What is planned stays below the limit that the verdict will ask to be kept.
     assert within(settings.flight, limits, record).speed_max_mps < possible.uav_speed_max_mps
+
+
+def test_no_flight_is_asked_to_last_longer_than_a_battery_did() -> None:
+    limits, _, shipped = _shipped()
+    rows = tuple(r.model_copy(update={'endurance_s': 1150.0}) for r in shipped.endurances)
+    possible = possible_limits(limits, shipped.model_copy(update={'endurances': rows}))
+    assert possible.model_dump() == limits.model_dump() | {'uav_endurance_s': 1000.0}
+
+
+def test_a_battery_lasts_as_long_as_in_the_worst_flight_around() -> None:
+    record = load_uav_record()
+    known = {(r.speed_mps, r.mean_mps): r.endurance_s for r in record.endurances}
+    speeds, winds = (sorted({key[part] for key in known}) for part in (0, 1))
+    fast, faster, top = speeds
+    for speed in speeds:
+        assert record.endurance_s(speed, 0.0, 0.0) == known[speed, 0.0]
+    between = (fast + faster) / 2.0
+    assert record.endurance_s(between, 0.0, 0.0) == min(known[fast, 0.0], known[faster, 0.0])
+    around = [known[top, wind] for wind in winds[:2]]
+    assert record.endurance_s(top, winds[1] / 2.0, 0.0) == min(around)
+    assert record.endurance_s(top + 1.0, 0.0, 0.0) == 0.0
+    assert record.endurance_s(0.0, 99.0, 0.0) == 0.0
 
 
 @pytest.mark.parametrize(('top_mps', 'target_mps'), [(9.5, 4.6), (7.0, 2.8), (3.0, 1.2)])
@@ -150,6 +175,7 @@ def test_the_record_of_another_model_is_refused(config: Path) -> None:
     [
         (lambda t: t['multirotor'].update(climb_mps=0.0), 'climb_mps'),
         (lambda t: t['multirotor'].pop('braking'), 'braking'),
+        (lambda t: t['multirotor']['endurances'].clear(), 'a hover in calm air'),
         (lambda t: t.pop('multirotor'), 'multirotor'),
         (lambda t: t.pop('made_of'), 'made_of'),
     ],
