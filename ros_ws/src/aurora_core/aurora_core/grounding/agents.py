@@ -66,7 +66,7 @@ class AgentPlacer:
         tolerances: Tolerances in force.
         goals: Where vehicles stop by themselves.
         run_s: How long they drive at most.
-        spawns: Where vehicle types were measured to stand.
+        spawns: What is beside each lane, and where vehicle types were measured to stand.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class AgentPlacer:
         tolerances: Tolerances,
         goals: GoalFinder,
         run_s: float,
-        spawns: SpawnTable | None = None,
+        spawns: SpawnTable,
     ) -> None:
         self._goals = goals
         self._run_s = run_s
@@ -247,7 +247,7 @@ class AgentPlacer:
 
     def _is_outermost(self, lane: Lane, vclass: str) -> bool:
         """Tell whether no lane for a class is to the right of a lane."""
-        right = lane.right_lane_id
+        right = self._spawns.samples.right_of(lane.id)
         return right is None or vclass not in self._map.network.lane(right).allows
 
     def _beyond_limits(

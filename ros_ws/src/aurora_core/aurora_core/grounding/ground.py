@@ -61,7 +61,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits, Tolerances, hover_capture_m
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.knowledge.map_records import SpawnTable, WalkTable
+from aurora_core.knowledge.map_records import SpawnTable, WalkTable, not_measured
 from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
@@ -121,7 +121,7 @@ class Grounder:
         self._map = map_model
         self._basis = basis
         self._executor_version = executor_version
-        self._spawns = spawns
+        self._spawns = not_measured(map_model) if spawns is None else spawns
         self._walks = walks
         self._types = types
         self._limits = limits
@@ -210,6 +210,7 @@ class Grounder:
             spec,
             split.groups if ranked else (),
             run_m,
+            self._spawns,
         )
         rejected: Counter[str] = Counter()
         best: _Option | None = None

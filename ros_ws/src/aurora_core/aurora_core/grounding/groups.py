@@ -18,6 +18,7 @@ from aurora_core.grounding.sites import SeatedAgent, Site, sites
 from aurora_core.grounding.ways_round import Point2
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import SpawnTable
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import Relation
@@ -40,6 +41,7 @@ class GroupPlacer:
         spec: The request.
         groups: The groups.
         run_m: Length of their routes.
+        spawns: What is beside each lane, and where vehicle types were measured to stand.
     """
 
     def __init__(
@@ -51,6 +53,7 @@ class GroupPlacer:
         spec: ScenarioSpec,
         groups: tuple[tuple[ConvoyMember, ...], ...],
         run_m: float,
+        spawns: SpawnTable,
     ) -> None:
         self._goals = goals
         self._spec = spec
@@ -69,6 +72,7 @@ class GroupPlacer:
                     run_m,
                     goals.spacing_m(spec, settings.anchor_spacing_m),
                     least_limit_mps=least_mps,
+                    spawns=spawns,
                     several_lanes=any(needs_lane(spec, m.agent) for m in group),
                     goals=through,
                 )

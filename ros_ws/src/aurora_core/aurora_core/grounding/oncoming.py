@@ -15,6 +15,7 @@ from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
+from aurora_core.knowledge.route_path import arc_at
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import GroundAgent
 from aurora_core.spec.vocabulary import Relation
@@ -41,7 +42,7 @@ class OncomingPlacer:
         map_model: Map.
         types: Agent sizes.
         inside_m: How far inside a bound on the distance they stand.
-        spawns: Where vehicle types were measured to stand.
+        spawns: What is beside each lane, and where vehicle types were measured to stand.
     """
 
     def __init__(
@@ -49,7 +50,7 @@ class OncomingPlacer:
         map_model: MapModel,
         types: Mapping[str, AgentTypeRecord],
         inside_m: float,
-        spawns: SpawnTable | None = None,
+        spawns: SpawnTable,
     ) -> None:
         self._network = map_model.network
         self._types = types
@@ -111,11 +112,13 @@ class OncomingPlacer:
         arc_m = met.arc_m + away_m
         if arc_m > met.path.length_m:
             return None
-        street = self._network.lane(met.path.lane_position_at(arc_m)[0])
-        opposite = None if street.is_internal else self._network.opposite_edge(street.edge_id)
+        lane_id, position_m = met.path.lane_position_at(arc_m)
+        there_m = arc_at(self._network.lane(lane_id), position_m)
+        opposite = self._spawns.samples.opposite_of(lane_id, there_m)
         if opposite is None:
             return None
-        return self._on(agent, opposite, met, away_m, run_m, straight=straight)
+        street = self._network.lane(opposite).edge_id
+        return self._on(agent, street, met, away_m, run_m, straight=straight)
 
     def _on(
         self,

@@ -193,8 +193,8 @@ def sites(
     before: BeforePlace | None = None,
     least_limit_mps: float = 0.0,
     *,
+    spawns: SpawnTable,
     several_lanes: bool = False,
-    spawns: SpawnTable | None = None,
     goals: Sequence[frozenset[str]] = (),
 ) -> Iterator[Site]:
     """Yield every site of the map in a fixed order.
@@ -208,8 +208,8 @@ def sites(
         spacing_m: How far apart they are.
         before: A member that stands before a place; only such sites are yielded.
         least_limit_mps: Streets have this speed limit, or the highest one that the map has.
+        spawns: What is beside each lane, and where vehicle types were measured to stand.
         several_lanes: Only on streets with several lanes for cars per direction.
-        spawns: Where vehicle types were measured to stand.
         goals: Edges of the places that the routes are to come through, in this order.
     """
     centres: Sequence[tuple[float, float]] = ()
@@ -230,7 +230,7 @@ def sites(
     if several_lanes:
         lanes = with_another_lane(lanes)
     if beside:
-        lanes = [lane for lane in lanes if _has_bike_lane(network, lane)]
+        lanes = [lane for lane in lanes if _has_bike_lane(network, spawns, lane)]
     lanes, least_mps = brisk_lanes(lanes, least_limit_mps)
     vclass = min(classes, key=lambda c: (len(network.driving_lanes(c)), c))
     finder = route_finder(network, vclass, least_mps)
@@ -241,7 +241,7 @@ def sites(
         (types[m.agent.type.value].length_m / 2.0 - m.offset_m for m in convoy), default=0.0
     )
     for lane in lanes:
-        right = lane.right_lane_id
+        right = spawns.samples.right_of(lane.id)
         has_right = right is not None and all(c in network.lane(right).allows for c in classes)
         shifted = any(m.lane_shift < 0 for m in convoy)
         # The right lane is where one drives; another only when a member has to be right of it.
@@ -275,13 +275,14 @@ def sites(
             arc_m += spacing_m
 
 
-def _has_bike_lane(network: RoadNetwork, lane: Lane) -> bool:
+def _has_bike_lane(network: RoadNetwork, spawns: SpawnTable, lane: Lane) -> bool:
     """Tell whether the next lane to the right is one for bicycles alone."""
-    right = None if lane.right_lane_id is None else network.lane(lane.right_lane_id)
-    return right is not None and BICYCLES in right.allows and ANY_CLASS not in right.allows
+    right = spawns.samples.right_of(lane.id)
+    allows = frozenset() if right is None else network.lane(right).allows
+    return BICYCLES in allows and ANY_CLASS not in allows
 
 
-def _stands(network: RoadNetwork, site: Site, spawns: SpawnTable | None) -> bool:
+def _stands(network: RoadNetwork, site: Site, spawns: SpawnTable) -> bool:
     """Tell whether every member can be put where it is to be."""
     return all(
         may_stand(

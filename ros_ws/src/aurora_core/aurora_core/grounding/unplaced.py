@@ -74,7 +74,7 @@ def on_no_street(
     map_model: MapModel,
     types: Mapping[str, AgentTypeRecord],
     settings: GroundingSettings,
-    spawns: SpawnTable | None,
+    spawns: SpawnTable,
     run_m: float,
 ) -> str:
     """Return in words why no street has room for the vehicles that belong together.
@@ -86,7 +86,7 @@ def on_no_street(
         map_model: Map.
         types: Agent sizes.
         settings: Of the search.
-        spawns: Where vehicle types were measured to stand.
+        spawns: What is beside each lane, and where vehicle types were measured to stand.
         run_m: Length of the routes.
     """
     convoy = split.convoy

@@ -111,6 +111,19 @@ class LaneSamples:
             return None
         return span[0] + int(np.abs(self.arc_m[span[0] : span[1]] - arc_m).argmin())
 
+    def right_of(self, lane_id: str) -> str | None:
+        """Return the lane for vehicles to the right of one; None: there is none."""
+        return self._named(self.right, self.nearest(lane_id, 0.0))
+
+    def opposite_of(self, lane_id: str, arc_m: float) -> str | None:
+        """Return the nearest lane of the other direction beside a place; None: there is none."""
+        return self._named(self.opposite, self.nearest(lane_id, arc_m))
+
+    def _named(self, lanes: IntArray, sample: int | None) -> str | None:
+        if sample is None or lanes[sample] == NO_LANE:
+            return None
+        return self.lane_ids[int(lanes[sample])]
+
 
 def sampled_lanes(network: RoadNetwork) -> tuple[Lane, ...]:
     """Return the lanes outside junctions that some vehicle may drive on."""

@@ -24,7 +24,7 @@ from aurora_core.files import MAP_BYTES, read_json
 from aurora_core.knowledge.array_file import Arrays, arrays_bytes, arrays_digest, read_arrays
 from aurora_core.knowledge.config_files import config_root
 from aurora_core.knowledge.height_lattice import HeightLattice
-from aurora_core.knowledge.lane_samples import LaneSamples
+from aurora_core.knowledge.lane_samples import LaneSamples, sample_lanes
 from aurora_core.knowledge.map_folders import bundled_maps, own_maps_folder
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.measured_on import check_made_of, ground_basis
@@ -116,6 +116,13 @@ class SpawnTable:
         if sample is None or type_name not in self.type_names:
             return True
         return bool(self.table[self.type_names.index(type_name), sample] != REFUSED)
+
+
+def not_measured(map_model: MapModel) -> SpawnTable:
+    """Return the lane samples of a map that was not measured: nothing is refused there."""
+    samples = sample_lanes(map_model)
+    table = np.zeros((0, len(samples)), dtype=np.uint8)
+    return SpawnTable(type_names=(), samples=samples, table=table)
 
 
 def may_stand(spawns: SpawnTable | None, type_name: str, lane_id: str, arc_m: float) -> bool:

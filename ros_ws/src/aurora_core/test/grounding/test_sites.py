@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from aurora_core.grounding.ground import Grounder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
-from aurora_core.knowledge.lane_samples import sample_lanes
+from aurora_core.knowledge.lane_samples import NO_LANE, sample_lanes
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import REFUSED, STANDS, SpawnTable, WalkTable
@@ -150,3 +151,31 @@ def test_traffic_and_free_vehicles_leave_a_refused_lane(
     assert lanes(_table(model, 'car')) == usual
     some = sorted(set(usual))[::2]
     assert not set(some) & set(lanes(_table(model, 'car', *some)))
+
+
+def test_oncoming_vehicles_are_where_the_records_have_the_other_direction(
+    map_of: Callable[[str], MapModel],
+    agent_types: Mapping[str, AgentTypeRecord],
+    limits: Limits,
+    tolerances: Tolerances,
+    settings: Settings,
+    read_prompt: Callable[..., ScenarioSpec],
+) -> None:
+    model = map_of('downtown')
+    spec = read_prompt('A drone tracks a bus. A van comes towards the bus in the oncoming lane.')
+    measured = _table(model, 'bus')
+
+    def found(spawns: SpawnTable | None) -> GroundedScenario | GroundingFailure:
+        grounder = Grounder(model, agent_types, limits, tolerances, settings, spawns=spawns)
+        return grounder.ground(spec, 1)
+
+    usual = found(measured)
+    assert isinstance(usual, GroundedScenario)
+    assert found(None) == usual
+    (van,) = [agent for agent in usual.agents if agent.type_name == 'van']
+    samples = measured.samples
+    assert van.lane_id in {samples.lane_ids[k] for k in samples.opposite if k != NO_LANE}
+    alone = replace(samples, opposite=np.full_like(samples.opposite, NO_LANE))
+    refused = found(replace(measured, samples=alone))
+    assert isinstance(refused, GroundingFailure)
+    assert refused.reason == 'oncoming'

@@ -136,3 +136,15 @@ def test_arrays_that_do_not_fit_are_refused(samples: LaneSamples) -> None:
     del arrays['y_m']
     with pytest.raises(MapError, match='y_m'):
         LaneSamples.of_arrays(arrays)
+
+
+def test_lanes_beside_a_place_are_named(samples: LaneSamples, downtown: MapModel) -> None:
+    for lane_id in samples.lane_ids:
+        right = downtown.network.lane(lane_id).right_lane_id
+        driven = right in samples.lane_ids
+        assert samples.right_of(lane_id) == (right if driven else None)
+    for row in _some(samples):
+        lane_id, opposite = samples.lane_ids[samples.lane[row]], samples.opposite[row]
+        named = samples.opposite_of(lane_id, float(samples.arc_m[row]))
+        assert named == (None if opposite == NO_LANE else samples.lane_ids[opposite])
+    assert samples.right_of(':no_lane') is samples.opposite_of(':no_lane', 0.0) is None
