@@ -179,3 +179,29 @@ def test_oncoming_vehicles_are_where_the_records_have_the_other_direction(
     refused = found(replace(measured, samples=alone))
     assert isinstance(refused, GroundingFailure)
     assert refused.reason == 'oncoming'
+
+
+def test_further_groups_leave_a_refused_lane(
+    map_of: Callable[[str], MapModel],
+    agent_types: Mapping[str, AgentTypeRecord],
+    limits: Limits,
+    tolerances: Tolerances,
+    settings: Settings,
+    read_prompt: Callable[..., ScenarioSpec],
+) -> None:
+    model = map_of('downtown')
+    spec = read_prompt(
+        'The truck is 30 m before the intersection. The bus is 20 m before the hospital. '
+        'A drone tracks the truck.'
+    )
+
+    def lanes(spawns: SpawnTable) -> dict[str, str]:
+        grounder = Grounder(model, agent_types, limits, tolerances, settings, spawns=spawns)
+        found = grounder.ground(spec, 1)
+        assert isinstance(found, GroundedScenario)
+        return {agent.id: agent.lane_id for agent in found.agents}
+
+    usual = lanes(_table(model, 'bus'))
+    assert usual['truck1'] != usual['bus1']
+    refused = lanes(_table(model, 'bus', usual['bus1']))
+    assert refused['bus1'] != usual['bus1']
