@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import shapely
 
+from aurora_bench.checker.junctions import junctions
 from aurora_bench.checker.recording import FloatArray, Lane, World
 
 GENERAL = ('intersection', 'crosswalk', 'sidewalk', 'roadside', 'main_road')
@@ -19,8 +20,6 @@ LANDMARK = 'landmark:'
 APPROACH = 'approach:'
 # A landmark so near to its building is at it.
 BESIDE_M = 1.0
-# Ends of lanes that are so near belong to one junction.
-JUNCTION_LINK_M = 23.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,15 +172,8 @@ class Places:
     @functools.cache  # noqa: B019
     def _junctions(self) -> tuple[Spot, ...]:
         """Return where lanes of three or more arms meet, and every signalled junction."""
-        ends, arms = _lane_ends(self.world.lanes)
-        spots = []
-        for members in _clusters(ends):
-            directions = {arms[i] for i in members}
-            if len(directions) >= 3:
-                hull = shapely.MultiPoint(ends[members]).convex_hull
-                low, high = ends[members].min(axis=0), ends[members].max(axis=0)
-                x, y = (low + high) / 2.0
-                spots.append(Spot(float(x), float(y), hull))
+        found = junctions(self.world.lanes, self.carriageway())
+        spots = [Spot(x, y, outline) for x, y, outline in found]
         alone = [
             Spot(x, y, shapely.Point(x, y).buffer(10.0))
             for _, x, y in self.world.signals
@@ -211,30 +203,3 @@ def _landmark(spot: Spot, outlines: list[Any]) -> Spot:
 
 def _line_distance(lane: Lane, x: float, y: float) -> float:
     return float(shapely.LineString(lane.xy_m).distance(shapely.Point(x, y)))
-
-
-def _lane_ends(lanes: tuple[Lane, ...]) -> tuple[FloatArray, list[int]]:
-    """Return the ends of all lanes and, for each, the side (of eight) on which its lane lies."""
-    ends, arms = [], []
-    for lane in lanes:
-        for here, away in ((lane.xy_m[0], lane.xy_m[1]), (lane.xy_m[-1], lane.xy_m[-2])):
-            ends.append(here)
-            angle = np.arctan2(*(away - here)[::-1])
-            arms.append(round(float(angle) / (np.pi / 4.0)) % 8)
-    return np.array(ends).reshape(-1, 2), arms
-
-
-def _clusters(points: FloatArray) -> list[list[int]]:
-    """Return groups of points that are linked by short distances, in order of first member."""
-    left = list(range(len(points)))
-    groups = []
-    while left:
-        group, front = [], [left.pop(0)]
-        while front:
-            i = front.pop()
-            group.append(i)
-            near = [j for j in left if np.hypot(*(points[i] - points[j])) <= JUNCTION_LINK_M]
-            front.extend(near)
-            left = [j for j in left if j not in near]
-        groups.append(sorted(group))
-    return groups
