@@ -13,6 +13,7 @@ from types import MappingProxyType
 import shapely
 
 from aurora_core.errors import MapError
+from aurora_core.knowledge.folds import folds_back_m
 from aurora_core.knowledge.lane_plan import LanePlanner
 from aurora_core.knowledge.net_reader import VEHICLE_CLASSES, read_network
 from aurora_core.knowledge.net_types import (
@@ -29,6 +30,9 @@ from aurora_core.knowledge.surfaces import carriageway, parking_area, sidewalk_a
 _PEDESTRIAN = 'pedestrian'
 # Paths that are kept: requests of one length look at the same ones of all lanes again.
 _PATHS = 384
+
+# A vehicle that jumps no farther moves as its speed says, to a record's accuracy.
+_JUMP_M = 1.0
 
 # Beyond rounding: candidates this much farther than the nearest are compared exactly.
 _TIE_M = 0.01
@@ -176,7 +180,10 @@ class RoadNetwork:
         return None
 
     def successors(self, edge_id: str, vclass: str) -> tuple[str, ...]:
-        """Return the edges that a vehicle class can drive into from the end of an edge."""
+        """Return the edges that a vehicle class can drive into from the end of an edge.
+
+        None over lanes that fold back on themselves: who passes there jumps.
+        """
         key = (edge_id, vclass)
         if key not in self._successors:
             _check_class(vclass)
@@ -186,6 +193,7 @@ class RoadNetwork:
                 if vclass in self._lanes[lane_id].allows
                 for link in self._links.get(lane_id, ())
                 if vclass in self._lanes[link.to_lane_id].allows
+                and folds_back_m(link, self._lanes) <= _JUMP_M
             }
             self._successors[key] = tuple(sorted(found))
         return self._successors[key]

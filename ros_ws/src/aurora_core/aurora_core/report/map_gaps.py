@@ -4,16 +4,13 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
-from aurora_core.geometry.frames import heading_to_yaw_enu
+from aurora_core.knowledge.folds import folds_back_m
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import MapRecords
-from aurora_core.knowledge.net_types import Point
 from aurora_core.knowledge.road_network import RoadNetwork
 
 # "closing from 45 meters" and a follow of half a minute need about this much road ahead (m).
@@ -22,8 +19,6 @@ _SHARE = 0.98
 # A usual view of a UAV: so high, so far away (m); with less of the streets in sight it is lost.
 _VIEW_M = (40.0, 50.0)
 _SEEN_SHARE = 0.5
-# From one lane to the next no street turns so sharply.
-_FOLD_RAD = math.radians(100.0)
 _GUESSED = ('default', 'default of its kind')
 
 
@@ -91,7 +86,7 @@ def _roads(network: RoadNetwork) -> Iterator[MapGap]:
         yield MapGap(
             f'lanes that fold back on themselves at {", ".join(folds[:3])}'
             + (f' and {len(folds) - 3} more' if len(folds) > 3 else ''),
-            'a vehicle that passes there jumps, and the run is violated for it',
+            'no vehicle is led over one of more than a metre',
         )
     by_edge = Counter(lane.edge_id for lane in lanes)
     if all(count < 2 for count in by_edge.values()):
@@ -113,25 +108,17 @@ def _roads(network: RoadNetwork) -> Iterator[MapGap]:
 
 
 def _folds(network: RoadNetwork) -> tuple[str, ...]:
-    """Return the junctions in which a lane goes on backwards, by id; turning round is none."""
-    found = set()
-    for link in network.connections:
-        lanes = [
-            network.lane(name) for name in (link.from_lane_id, *link.via_lane_ids, link.to_lane_id)
-        ]
-        drivable = all('passenger' in lane.allows for lane in (lanes[0], lanes[-1]))
-        if not drivable or link.direction == 't':
-            continue
-        for before, after in pairwise(lanes):
-            ends = _heading(*before.polyline[-2:])
-            begins = _heading(*after.polyline[:2])
-            if abs((begins - ends + math.pi) % math.tau - math.pi) > _FOLD_RAD:
-                found.add(network.edge(lanes[0].edge_id).to_junction)
+    """Return the junctions in which a lane for cars goes on backwards, by id."""
+    found = {
+        network.edge(network.lane(link.from_lane_id).edge_id).to_junction
+        for link in network.connections
+        if folds_back_m(link, network.lanes) > 0.0
+        and all(
+            'passenger' in network.lane(name).allows
+            for name in (link.from_lane_id, link.to_lane_id)
+        )
+    }
     return tuple(sorted(found))
-
-
-def _heading(a: Point, b: Point) -> float:
-    return heading_to_yaw_enu(b[0] - a[0], b[1] - a[1])
 
 
 def _walking(network: RoadNetwork) -> Iterator[MapGap]:

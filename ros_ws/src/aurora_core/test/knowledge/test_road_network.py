@@ -5,11 +5,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from aurora_core.errors import MapError
-from aurora_core.knowledge.map_model import MapModel
+from aurora_core.geometry.polyline import Polyline
+from aurora_core.knowledge.folds import folds_back_m
+from aurora_core.knowledge.map_model import MapModel, load_map
+from aurora_core.knowledge.net_reader import read_network
 from aurora_core.knowledge.net_types import NetworkData
 from aurora_core.knowledge.road_network import RoadNetwork
 
@@ -138,3 +142,36 @@ def test_a_map_without_lanes_for_a_class_has_no_nearest_lane(junction: MapModel)
     )
     with pytest.raises(MapError, match='no lane for passenger'):
         RoadNetwork(data).nearest_lane(0.0, 0.0, 'passenger')
+
+
+def test_no_way_leads_over_a_lane_that_folds_back(junction: MapModel) -> None:
+    """As in CARLA's Town03: a lane of its junction runs back over the street that it joins."""
+    known = junction.network
+    straight = next(
+        link for link in known.connections if link.direction == 's' and link.via_lane_ids
+    )
+    begin, end = (known.lane(i).edge_id for i in (straight.from_lane_id, straight.to_lane_id))
+    assert end in known.successors(begin, 'passenger')
+    via = known.lane(straight.via_lane_ids[0])
+    back = tuple(reversed(via.polyline))
+    folded = {
+        lane.id: replace(lane, polyline=back, line=Polyline(back)) if lane.id == via.id else lane
+        for lane in known.lanes.values()
+    }
+    assert folds_back_m(straight, known.lanes) == 0.0
+    assert folds_back_m(straight, folded) == pytest.approx(via.arc_length_m)
+    network = RoadNetwork(replace(read_network(junction.net_path), lanes=tuple(folded.values())))
+    assert end not in network.successors(begin, 'passenger')
+    others = set(known.successors(begin, 'passenger')) - {end}
+    assert others
+    assert set(network.successors(begin, 'passenger')) == others
+
+
+def test_a_fold_that_nobody_notices_leads_on() -> None:
+    network = load_map('helsinki').network
+    folds = [f for f in network.connections if folds_back_m(f, network.lanes) > 0.0]
+    assert folds
+    for link in folds:
+        begin, end = (network.lane(i).edge_id for i in (link.from_lane_id, link.to_lane_id))
+        assert folds_back_m(link, network.lanes) < 1.0
+        assert end in network.successors(begin, 'passenger')
