@@ -23,6 +23,7 @@ from aurora_bench.checker.answers import (
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.events import happened
 from aurora_bench.checker.numbers import wanted
+from aurora_bench.checker.on_the_way import stated_between
 from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
 from aurora_bench.checker.paths import way
 from aurora_bench.checker.phases import missions_end_s
@@ -60,11 +61,14 @@ def _one(case: Case, requirement: Requirement, body: str) -> Judged:
 
 def _kind(case: Case, requirement: Requirement, body: str) -> Judged:
     targets = [t for t in case.things(requirement.get('target')) if t != body]
-    pairs = {'follow': follow, 'tailgate': tailgate, 'overtake': overtake, 'approach': approach}
+    pairs = {'tailgate': tailgate, 'overtake': overtake, 'approach': approach}
     kind = str(requirement.get('behavior'))
-    if kind in pairs:
+    if kind in (*pairs, 'follow'):
         if not targets:
             return cannot_tell(f'{kind} whom is not annotated')
+        if kind == 'follow':
+            gaps = [(t, stated_between(case, body, t)) for t in targets]
+            return any_of([follow(case.scene, body, t, stated) for t, stated in gaps])
         judged = [pairs[kind](case.scene, body, t) for t in targets]
         return all_of(judged) if kind == 'overtake' else any_of(judged)
     match kind:

@@ -10,6 +10,7 @@ import numpy as np
 
 from aurora_bench.checker import limits
 from aurora_bench.checker.answers import Judged, does_not, graded
+from aurora_bench.checker.numbers import Wanted
 from aurora_bench.checker.paths import ahead_of
 from aurora_bench.checker.phases import missions_end_s
 from aurora_bench.checker.recording import FloatArray
@@ -34,10 +35,13 @@ def gaps(scene: Scene, follower: str, leader: str) -> tuple[FloatArray, FloatArr
     return found
 
 
-def follow(scene: Scene, body: str, leader: str) -> Judged:
+def follow(scene: Scene, body: str, leader: str, stated: Wanted | None = None) -> Judged:
     """Return whether a body follows another: the gap for 0.8 of the time after 10 s.
 
     Until the last mission ends: what is stated with motion need not hold while UAVs land.
+
+    Args:
+        stated: How far behind it is to be, from middle to middle (m): that counts, too.
     """
     if not scene.is_body(leader):
         return does_not(f'{leader} is no body')
@@ -45,8 +49,12 @@ def follow(scene: Scene, body: str, leader: str) -> Judged:
     speed = scene.speed(body)[ticks]
     fast = speed > limits.FOLLOW_MOVING_MPS
     least = np.where(fast, limits.FOLLOW_GAP_M[0], limits.FOLLOW_SLOW_GAP_M[0])
+    most = limits.FOLLOW_GAP_M[1]
+    if stated is not None:
+        half = (scene.bodies[body].length_m + scene.bodies[leader].length_m) / 2.0
+        least, most = np.minimum(least, stated.low - half), max(most, stated.high - half)
     with np.errstate(invalid='ignore'):
-        good = (gap >= least) & (gap <= limits.FOLLOW_GAP_M[1])
+        good = (gap >= least) & (gap <= most)
     times = scene.times[ticks]
     asked = times < missions_end_s(scene)
     late = asked & (times >= limits.FOLLOW_AFTER_S)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where bodies stand at t = 0, relative to others and to places."""
+"""Where bodies are relative to others and to places: at t = 0, and on the way."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from aurora_bench.checker.answers import (
 )
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.numbers import Wanted, wanted
+from aurora_bench.checker.on_the_way import on_the_way
 from aurora_bench.checker.paths import ahead_of, frame, lane_of, project, way
 from aurora_bench.checker.places import Spot
 
@@ -94,7 +95,9 @@ def _straight(case: Case, requirement: Requirement, body: str, thing: str) -> Ju
 def _to_body(case: Case, requirement: Requirement, body: str, other: str) -> Judged:
     match relation := requirement.get('relation'):
         case 'ahead' | 'behind' | 'before':
-            return _along(case, requirement, body, other, relation == 'ahead')
+            asked = _distance(case, requirement, body, other)
+            at_first = _along(case, requirement, body, other, relation == 'ahead')
+            return all_of([at_first, on_the_way(case, requirement, body, other, asked)])
         case 'same_lane':
             return _same_lane(case, requirement, body, other)
         case 'adjacent_lane':

@@ -100,7 +100,11 @@ class CountRequirement(_Requirement):
 
 
 class PlacementRequirement(_Requirement):
-    """Where an agent is, relative to a body or a place."""
+    """Where an agent is, relative to a body or a place.
+
+    Attributes:
+        kept: It is told with motion ("drives 30 m behind") and holds along the route, too.
+    """
 
     kind: Literal['placement']
     agent: Ref
@@ -108,6 +112,7 @@ class PlacementRequirement(_Requirement):
     of: Ref | None = None
     distance_m: FiniteFloat | None = None
     bearing_deg: FiniteFloat | None = None
+    kept: StrictBool | None = None
 
 
 class BehaviorRequirement(_Requirement):

@@ -126,6 +126,7 @@ def default(name: str) -> Doc:
 def placement(r: PlacementRequirement, names: Names, numbers: Numbers) -> Doc:
     """Return a placement."""
     given = numbers.of(r, ('distance_m', 'bearing_deg'))
+    given |= {'kept_in_motion': True} if r.kept else {}
     return {'relation': r.relation, 'of': names.one(r.of), **given}
 
 

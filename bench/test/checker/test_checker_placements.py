@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 DRIVEN = 'car1'
@@ -152,3 +153,37 @@ def test_every_member_of_a_group_is_placed(stage: Any) -> None:
     asked = {'kind': 'placement', 'agent': 'cars', 'relation': 'ahead', 'of': 'bus1'}
     others = [{'kind': 'agent', 'ref': r, 'type': 'car', 'count': 0} for r in ('c1', 'c2')]
     assert stage.says(asked, cars, bus, *others) == 'does_not'
+
+
+@pytest.mark.parametrize(
+    ('faster_mps', 'kept', 'follows', 'outcome'),
+    [
+        (0.0, True, False, 'holds'),
+        (1.0, True, False, 'does_not'),
+        (1.0, False, False, 'holds'),  # told of t = 0
+        (1.0, False, True, 'cannot_tell'),  # follows, from that far away or so far away
+        (0.0, False, True, 'holds'),
+    ],
+)
+def test_a_distance_that_is_told_with_motion_holds_on_the_way(
+    stage: Any, faster_mps: float, kept: bool, follows: bool, outcome: str
+) -> None:
+    stage.drive('bus1', 'bus', 8.0, x=0.0)
+    stage.drive('car1', 'car', 8.0 + faster_mps, x=25.0)
+    asked = _ahead(25) | ({'kept': True} if kept else {})
+    more = [{'kind': 'behavior', 'agent': 'bus1', 'behavior': 'follow', 'target': 'car1'}]
+    assert stage.says(asked, *(more if follows else [])) == outcome
+
+
+def test_who_closes_up_to_one_that_stands_keeps_its_distance_on_the_way(stage: Any) -> None:
+    # 20 s side by side in time, 40 s of waiting 10 m nearer.
+    stage.drive('car1', 'car', lambda t: np.where(t < 20.0, 8.0, 0.0), x=25.0)
+    stage.drive('bus1', 'bus', lambda t: np.where(t < 21.2, 8.0, 0.0), x=0.0)
+    assert stage.says(_ahead(25) | {'kept': True}) == 'holds'
+
+
+def test_who_follows_at_a_stated_distance_may_be_as_near_as_that(stage: Any) -> None:
+    _pair(stage, 12.0)  # 3.7 m from bumper to bumper
+    follows = {'kind': 'behavior', 'agent': 'bus1', 'behavior': 'follow', 'target': 'car1'}
+    assert stage.says(follows) == 'does_not'
+    assert stage.says(follows, _ahead(12)) == 'holds'

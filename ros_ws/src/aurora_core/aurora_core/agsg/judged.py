@@ -47,6 +47,7 @@ NO_CHOICE = frozenset(
         'role',
         'prompt',
         'clauses',
+        'distance_at_start',
         'reader',
         'schema_version',
         'target_inferred',

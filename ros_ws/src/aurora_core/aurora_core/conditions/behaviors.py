@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from aurora_core.grounding.places import has_point
@@ -376,7 +376,7 @@ def behavior_conditions(
             if goal is not None:
                 yield at_place.parks(inputs, agent, behavior, goal, name)
                 continue
-            yield from _implied(inputs, agent, behavior, name)
+            yield from _implied(_as_stated(inputs, agent, behavior), agent, behavior, name)
             yield from _there(inputs, agent, behavior, name)
             yield from placement.closing(inputs, agent, behavior, name)
             yield from _stated_speed(inputs, agent, behavior, name)
@@ -387,6 +387,27 @@ def behavior_id(agent: GroundAgent, index: int) -> str:
     return f'{agent.id}.{agent.behaviors[index].kind.value}' + (
         '' if index == 0 else str(index + 1)
     )
+
+
+def _as_stated(inputs: Inputs, agent: GroundAgent, behavior: Behavior) -> Inputs:
+    """Return what a following is judged by: the distance that is stated for it goes before."""
+    other = inputs.agent(behavior.target or '')
+    if behavior.kind is not BehaviorKind.FOLLOW or other is None:
+        return inputs
+    pair = {agent.id, other.id}
+    stated = [
+        p.distance_m.value
+        for one in (agent, other)
+        for p in one.placements
+        if p.of in pair and p.distance_m is not None and p.keeps_distance
+    ]
+    if not stated:
+        return inputs
+    t = inputs.tolerances
+    low_m, high_m = t.follow_gap_moving_m
+    slack_m = t.placement_vehicle_m.of(max(stated))
+    gaps_m = (min(low_m, t.follow_gap_slow_m[0]), max(high_m, max(stated) + slack_m))
+    return replace(inputs, tolerances=t.model_copy(update={'follow_gap_moving_m': gaps_m}))
 
 
 def _implied(

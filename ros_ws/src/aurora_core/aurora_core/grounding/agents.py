@@ -118,7 +118,7 @@ class AgentPlacer:
                     seat.arc_m,
                     release=own_release(spec, agent, begins),
                     still=still,
-                    speed_mps=self._stated_mps(spec, agent),
+                    speed_mps=styles.leads_mps(agent) or self._stated_mps(spec, agent),
                     entry_mps=entries.get(agent.id, 0.0),
                     style=styles.of(seat),
                     lane_changes=self._lane_changes(spec, agent, tied=len(site.seated) > 1),

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 
-from aurora_core.grounding.kept_gaps import kept_gaps
+from aurora_core.grounding.kept_gaps import KeptGap, kept_gaps, led
 from aurora_core.grounding.lane_changers import changes_lane
 from aurora_core.grounding.pace import (
     PACED,
@@ -43,6 +43,10 @@ _PASSES_BY_MPS = 4.0
 # Who has somebody with a stated speed behind hurries by so much at most.
 _BRISK = 1.6
 
+# Share of a stated speed that is driven ahead of who drives it at a distance: the one behind can
+# make up for what it loses, and is not too slow for it.
+_AHEAD_OF_STATED = 0.95
+
 
 class ConvoyStyles:
     """The styles of driving of those who stand at one site.
@@ -73,6 +77,7 @@ class ConvoyStyles:
         self._factor = self._pace_factor(site, limits)
         self._meetings = encounters(spec)
         self._gaps = kept_gaps(spec, self._seats, types)
+        self._led = led(self._gaps)
         self._in_line = _in_line(spec)
         self._tracked = tracked(spec)
         self._front_m = max((s.arc_m for s in site.seated), default=0.0)
@@ -88,6 +93,18 @@ class ConvoyStyles:
         style |= self._passing_style(agent)
         style |= self._paced_style(seat, style['speed_factor'])
         return style | self._gentle_style(agent, style)
+
+    def leads_mps(self, agent: GroundAgent) -> float | None:
+        """Return how fast one without a stated speed drives ahead of who has one (m/s).
+
+        None where nobody with a stated speed keeps an exact distance behind it.
+        """
+        agents = {a.id: a for a in self._spec.agents}
+        speeds = [own_speed_mps(agents[name]) for name in self._led.get(agent.id, ())]
+        stated = [speed for speed in speeds if speed is not None]
+        if not stated or own_speed_mps(agent) is not None:
+            return None
+        return _AHEAD_OF_STATED * min(stated)
 
     def _gentle_style(self, agent: GroundAgent, style: Mapping[str, float]) -> dict[str, float]:
         """Return what lets who follows one keep up: a start no harder than it can do.
@@ -157,12 +174,21 @@ class ConvoyStyles:
             style |= {'time_gap_s': _IN_LINE_S}
         for gap in self._gaps:
             if gap.follower == agent.id:
-                style |= {'min_gap_m': gap.gap_m, 'time_gap_s': run.dt_s}
+                least_m = gap.least_m(self._pace_mps(gap), run.dt_s)
+                style |= {'min_gap_m': least_m, 'time_gap_s': run.dt_s}
             elif gap.leader == agent.id:
                 style['gentle_mps2'] = min(
                     gap.acceleration_mps2, style.get('gentle_mps2', gap.acceleration_mps2)
                 )
         return style
+
+    def _pace_mps(self, gap: KeptGap) -> float:
+        """Return how fast the line is in which two keep their distance (m/s)."""
+        front = next((f for f, others in self._led.items() if gap.follower in others), gap.leader)
+        agent = self._seats[front].agent
+        stated = own_speed_mps(agent) or self.leads_mps(agent)
+        free_mps = self._factor * self._limit_mps * self._settings.grounding.chased_speed_factor
+        return free_mps if stated is None else stated
 
     def _to_catch_up_with(self, meeting: Encounter) -> SeatedAgent | None:
         """Return the front one of two that are to meet, None where nobody flees from the other."""
@@ -203,6 +229,7 @@ class ConvoyStyles:
         lasts = (_last(pair, self._seats) for pair in partings(self._spec))
         slow += [name for name in lasts if name is not None]
         slow += [other for _, other in approaches(self._spec)]
+        slow += self._led
         slowed = agent.id in slow and own_speed_mps(agent) is None
         return {'speed_factor': self._factor * grounding.chased_speed_factor} if slowed else {}
 

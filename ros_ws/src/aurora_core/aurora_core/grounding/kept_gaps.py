@@ -3,18 +3,21 @@
 """How vehicles drive that keep a stated distance all the way.
 
 Whoever follows gets the gap at the start as the gap that it never goes below, and a time gap that
-adds next to nothing to it at speed; whoever is followed accelerates no harder than its follower.
-Several who follow one vehicle in line keep close, so that the last one still follows it.
+adds next to nothing to it at speed; whoever is followed accelerates no harder than its follower,
+and of an exact distance is slower than that one may be: who lost some way in a bend or at a light
+makes up for it. Several who follow one vehicle in line keep close, so that the last one still
+follows it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from aurora_core.grounding.sites import SeatedAgent
 from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.spec.parameter import Bound
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, Relation
@@ -33,12 +36,24 @@ class KeptGap:
         leader: Id.
         gap_m: Bumper to bumper at the start.
         acceleration_mps2: What the follower can do.
+        exact: It is to be no greater, either.
+        longer_braking_s2pm: Half of what the follower needs to brake for each (m/s)^2 more than
+            the leader (s^2/m), which the simulator keeps free beside the gap.
     """
 
     follower: str
     leader: str
     gap_m: float
     acceleration_mps2: float
+    exact: bool = False
+    longer_braking_s2pm: float = 0.0
+
+    def least_m(self, speed_mps: float, step_s: float) -> float:
+        """Return the gap to stand with so that `gap_m` is kept at a speed (m/s)."""
+        if not self.exact:
+            return self.gap_m
+        beside_m = speed_mps * step_s + self.longer_braking_s2pm * speed_mps * speed_mps / 2.0
+        return max(_LEAST_M, self.gap_m - beside_m)
 
 
 def kept_gaps(
@@ -57,10 +72,13 @@ def kept_gaps(
             own, other = seats.get(agent.id), seats.get(placement.of or '')
             if own is None or other is None or not placement.keeps_distance:
                 continue
-            if placement.relation is Relation.BEHIND:
-                found.append(_kept_gap(own, other, types))
-            elif placement.relation is Relation.AHEAD:
-                found.append(_kept_gap(other, own, types))
+            ahead = placement.relation is Relation.AHEAD
+            if ahead or placement.relation is Relation.BEHIND:
+                pair = (other, own) if ahead else (own, other)
+                exact = placement.distance_m is not None and (
+                    placement.distance_m.bound is Bound.EXACTLY
+                )
+                found.append(replace(_kept_gap(*pair, types), exact=exact))
     for agent in spec.agents:
         for behavior in agent.behaviors:
             own, other = seats.get(agent.id), seats.get(behavior.target or '')
@@ -71,6 +89,20 @@ def kept_gaps(
                     line if line or within_m is None else [_close(own, other, types, within_m)]
                 )
     return tuple(dict.fromkeys(found))
+
+
+def led(gaps: Iterable[KeptGap]) -> Mapping[str, tuple[str, ...]]:
+    """Return who keeps an exact distance behind whom, by the very first one of each line."""
+    behind = {gap.follower: gap.leader for gap in gaps if gap.exact}
+    found: dict[str, list[str]] = {}
+    for follower in behind:
+        front, seen = follower, {follower}
+        while front in behind and behind[front] not in seen:
+            front = behind[front]
+            seen.add(front)
+        if front not in behind:
+            found.setdefault(front, []).append(follower)
+    return {front: tuple(followers) for front, followers in found.items()}
 
 
 def _within_m(spec: ScenarioSpec, follower: str, leader: str) -> float | None:
@@ -120,4 +152,5 @@ def _kept_gap(
         leader=leader.member.agent.id,
         gap_m=max(0.0, leader.arc_m - follower.arc_m - (own.length_m + other.length_m) / 2.0),
         acceleration_mps2=own.accel_mps2,
+        longer_braking_s2pm=1.0 / own.decel_mps2 - 1.0 / max(own.decel_mps2, other.decel_mps2),
     )

@@ -13,6 +13,7 @@ from aurora_core.knowledge.limits import Limits
 from aurora_core.parsing import values
 from aurora_core.planning.bounds import bent
 from aurora_core.planning.ids import free_ids
+from aurora_core.planning.kept_distances import at_start_where_changed
 from aurora_core.planning.orders import waiting
 from aurora_core.spec.events import Event, MessageTrigger, actor_of, least_due_s
 from aurora_core.spec.own_events import overtakings
@@ -56,7 +57,7 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     """
     spec = meeting(passed(blowing(spec, limits)))
     spec = waiting(hovering(reporting(telling(yielding(approaching(spec))))))
-    return layered(bent(lasting(spec), limits), limits)
+    return layered(bent(lasting(at_start_where_changed(spec)), limits), limits)
 
 
 def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:

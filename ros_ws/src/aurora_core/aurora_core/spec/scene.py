@@ -72,6 +72,8 @@ class Placement(Element):
         bearing_deg: Compass bearing from `of`, when stated.
         kept_in_motion: "drives ahead of", "follows behind": must hold along the route.
         throughout: "always", "never more than", "stays": not most of the time, but all along.
+        distance_at_start: What the two do changes an exact distance, which therefore holds at
+            t = 0 only (`planning.kept_distances`).
     """
 
     relation: Relation
@@ -80,20 +82,22 @@ class Placement(Element):
     bearing_deg: Parameter | None = None
     kept_in_motion: bool = False
     throughout: bool = omitted(False)
+    distance_at_start: bool = omitted(False)
     span: Span | None = None
 
     @property
     def keeps_distance(self) -> bool:
         """Tell whether the stated distance holds on the way, and not at t = 0 only.
 
-        "Always 20 m behind" and "drives at most 20 m behind" do; a plain "drives 20 m behind" is
-        where it starts.
+        "Drives 20 m behind" does, unless one of the two then does what changes that; "always" and
+        "at most" hold whatever they do.
         """
         distance = self.distance_m
         if distance is None or distance.provenance is not Provenance.EXPLICIT:
             return False
         bounded = distance.bound is not Bound.EXACTLY
-        return self.kept_in_motion and (self.throughout or bounded)
+        steady = self.throughout or bounded or not self.distance_at_start
+        return self.kept_in_motion and steady
 
 
 class Behavior(Element):

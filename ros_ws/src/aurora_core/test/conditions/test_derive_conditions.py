@@ -64,9 +64,9 @@ def test_the_convoy_prompt(tb: ModuleType) -> None:
     assert derivation.underivable == ()
     assert _ids(derivation) == {
         'm1.order', 'm1.capture', 'm1.completed', 'm1.tracked', 'm1.visible', 'uav1.landed',
-        'bus1.placed', 'bus1.placed.distance', 'bus1.placed.kept', 'bus1.drive',
-        'ambulance1.placed', 'ambulance1.placed.kept', 'ambulance1.follow', 'car1.circulate',
-        'scene.ambulance', 'scene.bus', 'scene.car', 'scene.uav',
+        'bus1.placed', 'bus1.placed.distance', 'bus1.placed.distance_kept', 'bus1.placed.kept',
+        'bus1.drive', 'ambulance1.placed', 'ambulance1.placed.kept', 'ambulance1.follow',
+        'car1.circulate', 'scene.ambulance', 'scene.bus', 'scene.car', 'scene.uav',
     }  # fmt: skip
 
 

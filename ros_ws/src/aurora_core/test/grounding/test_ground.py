@@ -414,37 +414,6 @@ def test_a_stated_bearing_is_kept(
 
 
 @pytest.mark.parametrize(
-    ('prompt', 'follower', 'leader'),
-    [
-        ('A car always stays 20 m behind a bus; a drone tracks the bus.', 'car1', 'bus1'),
-        ('A car drives never more than 20 m ahead of a bus; a drone tracks it.', 'bus1', 'car1'),
-    ],
-)
-def test_who_keeps_a_distance_neither_falls_back_nor_closes_up(
-    prompt: str,
-    follower: str,
-    leader: str,
-    read_prompt: Read,
-    ground: Ground,
-    agent_types: Mapping[str, AgentTypeRecord],
-) -> None:
-    agents = {a.id: a for a in ground(read_prompt(prompt)).agents}
-    own, other = agents[follower], agents[leader]
-    apart = sqrt((own.x_m - other.x_m) ** 2 + (own.y_m - other.y_m) ** 2)
-    gap = apart - (own.length_m + other.length_m) / 2.0
-    assert own.min_gap_m == pytest.approx(gap, abs=0.1)
-    assert own.time_gap_s == pytest.approx(0.05)
-    assert other.gentle_mps2 == agent_types[own.type_name].accel_mps2
-
-
-def test_who_only_starts_at_a_distance_drives_as_its_type_does(
-    read_prompt: Read, ground: Ground
-) -> None:
-    agents = ground(read_prompt('A car drives 20 m behind a bus; a drone tracks the bus.')).agents
-    assert all(a.min_gap_m is None and a.gentle_mps2 is None for a in agents)
-
-
-@pytest.mark.parametrize(
     ('prompt', 'altitude_m'),
     [
         ('A drone hovers over the intersection at at least 40 m for 20 s.', 42.0),

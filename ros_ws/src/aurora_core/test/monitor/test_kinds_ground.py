@@ -476,6 +476,14 @@ PLACEMENTS = (
         make=lambda: cut(_kept(Bound.AT_MOST), 900),
         reason=SHORT,
     ),
+    # Told with motion: for 80 % of the time in which the bus is faster than 2 m/s.
+    Row(id='bus1.placed.distance_kept', make=lambda: _kept(Bound.EXACTLY), margin=0.2),
+    Row(
+        id='bus1.placed.distance_kept',
+        make=lambda: _kept(Bound.EXACTLY, 11.0),
+        margin=44 / 1031 - 0.8,
+    ),
+    Row(id='bus1.placed.distance_kept', make=lambda: _kept(Bound.EXACTLY, 0.1), reason=NEVER),
     # East is 90 degrees; 15 are allowed.
     Row(id='car1.placed.bearing', make=lambda: _bearing(100.0), margin=15.0 - 10.0),
     Row(id='car1.placed.bearing', make=lambda: _bearing(60.0), margin=15.0 - 30.0),

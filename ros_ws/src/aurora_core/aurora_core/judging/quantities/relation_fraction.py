@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from pydantic import FiniteFloat
 
+from aurora_core.document import omitted
 from aurora_core.judging.build import (
     Inputs,
     Source,
@@ -32,6 +33,8 @@ from aurora_core.judging.relations import RELATION_WORDS, bearing_error, relatio
 from aurora_core.judging.shares import share_of
 from aurora_core.knowledge.limits import Tolerance
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
+from aurora_core.outcomes.verdict import Reason
+from aurora_core.quantities import motion
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent, Placement
@@ -73,6 +76,8 @@ class DistanceFraction(Quantity):
         relation: Which one; it says how the distance is measured.
         low_m: Least distance; None: any.
         high_m: Greatest distance; None: any.
+        moving_mps: Only samples count at which the one in front, else the other one, is faster;
+            None: all.
     """
 
     name = QuantityName.RELATION_FRACTION
@@ -81,12 +86,22 @@ class DistanceFraction(Quantity):
     relation: Relation
     low_m: FiniteFloat | None
     high_m: FiniteFloat | None
+    moving_mps: FiniteFloat | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return the share; who is absent is at no distance."""
         ticks = context.window(condition)
         if isinstance(ticks, Missing):
             return ticks
+        if self.moving_mps is not None:
+            leader = condition.of[0 if self.relation is Relation.AHEAD else 1]
+            speed = motion.speed(context.view, context.view.body(leader))
+            ticks = ticks[speed[ticks] > self.moving_mps]
+            if not len(ticks):
+                if not context.complete(condition):
+                    return context.short(condition)
+                story = f'{leader} was never faster than {number(self.moving_mps)} m/s'
+                return Missing(reason=Reason.PREMISE_NEVER, story=story)
         values = placed_distance_m(context, condition, self.relation)
         good = np.ones(len(values), dtype=np.bool_)
         if self.low_m is not None:
@@ -169,18 +184,31 @@ def distance_kept(
     share = _least_share(inputs, placement)
     low_m, high_m = _ends_m(distance, inputs.placement_tolerance(agent.id))
     words = RELATION_WORDS[placement.relation]
-    binds = '' if distance.bound is Bound.EXACTLY else f'{bound_words(distance)} '
+    exact = distance.bound is Bound.EXACTLY
+    binds = '' if exact else f'{bound_words(distance)} '
+    # Who closes up to one that waits at a signal still drives at its distance behind it.
+    moving_mps = inputs.tolerances.follow_slow_mps if exact and not placement.throughout else None
+    leader = agent.id if placement.relation is Relation.AHEAD else of
+    counted = (
+        'the time'
+        if moving_mps is None
+        else f'the time in which {leader} is faster than {number(moving_mps)} m/s'
+    )
     return share_condition(
         id=f'{name}.distance_kept',
         sentence=(
             f'{agent.id} stays {binds}{number(distance.value)} m {words} {of} for '
-            f'{number(100 * share)} % of the time until the last mission ends'
+            f'{number(100 * share)} % of {counted} until the last mission ends'
         ),
         signal=f'distance_{placement.relation.value}_fraction({agent.id},{of})',
         of=(agent.id, of),
         share=share,
         arguments=DistanceFraction(
-            **inputs.common, relation=placement.relation, low_m=low_m, high_m=high_m
+            **inputs.common,
+            relation=placement.relation,
+            low_m=low_m,
+            high_m=high_m,
+            moving_mps=moving_mps,
         ),
         source=Source(ids=(agent.id,), spans=(distance.span,), provenance=distance.provenance),
     )
