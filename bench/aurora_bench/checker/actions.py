@@ -173,7 +173,13 @@ def _stop(case: Case, agent: str, window: Window) -> Acted:
             if _comes_early(case, agent, window, a):
                 return Acted(does_not(f'{agent} stands from {scene.times[a]:.2f} s, too early'))
             done = max(float(scene.times[a]), window.late_s)
-            return Acted(holds(f'{agent} stands at {done:.2f} s already'), done, done)
+            why = holds(f'{agent} stands at {done:.2f} s already')
+            # Who arrives may have done so, and come to rest, before it is there for sure.
+            rests = [c for c, _ in stops if first <= c <= scene.tick(window.late_s)]
+            if not rests:
+                return Acted(why, done, done)
+            since, done = float(scene.times[rests[0]]), float(scene.times[rests[-1]])
+            return Acted(why, done, done, done_from_s=since)
     onset = _onset(case, _slowing(case, agent), window)
     if onset is None:
         return _never(case, window, f'{agent} does not slow down')
@@ -356,6 +362,11 @@ def _start(case: Case, agent: str, window: Window, value: float | None) -> Acted
         halts = any(case.does(agent, do) for do in ('stop', 'yield'))
         since_s = window.early_s if window.told_s is None else window.told_s + limits.ONSET_S
         rests = scene.tick(min(since_s, window.early_s)) if halts else 0
+        if not halts and case.does(agent, 'brake'):
+            # Who is told to brake before comes to rest some time later.
+            rests = scene.tick(window.early_s if window.told_s is None else window.told_s)
+            at_rest = speed[rests : scene.tick(window.early_s) + 1] < limits.STOPPED_MPS
+            rests += int(np.argmax(at_rest))
         before = speed[rests : scene.tick(window.early_s) + 1]
         if (before >= limits.STOPPED_MPS).any():
             at = float(scene.times[rests + np.flatnonzero(before >= limits.STOPPED_MPS)[0]])

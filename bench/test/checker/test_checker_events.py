@@ -541,3 +541,37 @@ def test_a_lane_is_changed_when_it_is_there_or_has_been_kept(
         ref='e2',
     )
     assert stage.says(then, _event(AT_20, _does('change_lane'))) == outcome
+
+
+@pytest.mark.parametrize(
+    ('starts_s', 'outcome'), [(30.0, 'holds'), (26.0, 'does_not'), (55.0, 'does_not')]
+)
+def test_who_stops_before_a_place_waits_from_its_standstill_on(
+    stage: Any, starts_s: float, outcome: str
+) -> None:
+    """It stands 12 m before the crosswalk from 20 s on, and drives over it later."""
+    back = starts_s + 4.0
+    stage.drive(
+        'car1', 'car', _profile((0, 5), (16, 5), (20, 0), (starts_s, 0), (back, 8)), x=-2.0
+    )
+    stops = _event({'on': 'arrives', 'who': 'car1', 'place': 'crosswalk'}, _does('stop'))
+    goes = _event({'on': 'event_done', 'event': 'e1', 'after_s': 10}, _does('start'), ref='e2')
+    assert stage.outcomes(stops, goes) == ['holds', outcome]
+
+
+@pytest.mark.parametrize(
+    ('stands_s', 'starts_s', 'outcome'),
+    [(23.0, 30.2, 'holds'), (23.0, 26.0, 'does_not'), (40.0, 42.0, 'does_not')],
+)
+def test_who_brakes_comes_to_rest_before_it_starts_again(
+    stage: Any, stands_s: float, starts_s: float, outcome: str
+) -> None:
+    back = starts_s + 4.0
+    stage.drive(
+        'car1',
+        'car',
+        _profile((0, 10), (20, 10), (22, 1), (stands_s, 0), (starts_s, 0), (back, 8)),
+    )
+    brakes = _event(AT_20, _does('brake'))
+    goes = _event({'on': 'event_done', 'event': 'e1', 'after_s': 10}, _does('start'), ref='e2')
+    assert stage.outcomes(brakes, goes) == ['holds', outcome]

@@ -77,7 +77,7 @@ def _is_changed(
         or any(_changes(b, pair) for one in pair for b in one.behaviors)
         or (len({_way(one) for one in pair}) > 1 and not _follow(pair))
         or len(set(_speeds_mps(pair))) > 1
-        or any(_acts(spec, one) for one in pair)
+        or any(_acts(spec, one) or _is_passed(spec, one) for one in pair)
         or _comes_to(spec, pair, placement.distance_m)
     )
 
@@ -119,6 +119,15 @@ def _acts(spec: ScenarioSpec, agent: GroundAgent) -> bool:
         and e.action.agent == agent.id
         and e.action.do not in _KEEPS_ON
         for e in spec.events
+    )
+
+
+def _is_passed(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether somebody overtakes an agent, and may then be between it and the other one."""
+    return any(
+        b.kind is BehaviorKind.OVERTAKE and b.target == agent.id
+        for other in spec.agents
+        for b in other.behaviors
     )
 
 

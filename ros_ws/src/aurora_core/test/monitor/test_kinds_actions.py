@@ -223,15 +223,14 @@ def _sets_off(tick: int) -> Case:
     return _gains('start')(tick, AT_S)
 
 
-def _starts_again(tick: int) -> Case:
-    """It stops at 5 s and is to start again 10 s after it stands, which is at 7 s."""
-    speed = np.maximum(10.0 - 0.25 * np.maximum(TICK - 100, 0), 0.0)
-    speed = np.where(tick <= TICK, 5.0, speed)
-    case = ground_case(Behavior(kind=BehaviorKind.DRIVE), speed)
+def _starts_again(tick: int, do: str = 'stop') -> Case:
+    """It stops, or brakes, at 5 s and is to start again 10 s after it stands, which is at 7 s."""
+    stands = np.maximum(10.0 - 0.25 * np.maximum(TICK - 100, 0), 0.0)
+    case = ground_case(Behavior(kind=BehaviorKind.DRIVE), np.where(tick <= TICK, 5.0, stands))
     stop = {
         'id': 'e0',
         'trigger': {'on': 'time', 'at_s': number(5.0, Unit.SECOND)},
-        'action': {'do': 'stop', 'agent': 'car1'},
+        'action': {'do': do, 'agent': 'car1'},
     }
     start = {
         'id': 'e1',
@@ -410,6 +409,7 @@ SET_OFF = (
     Row(id='e1.at_rest', make=lambda: _gains('start')(310, 99.0), reason=NEVER),
     Row(id='e1.at_rest', make=lambda: _starts_again(305), margin=0.1, what='again'),
     Row(id='e1.at_rest', make=lambda: _starts_again(250), margin=0.1 - 5.0, what='again'),
+    Row(id='e1.at_rest', make=lambda: _starts_again(305, 'brake'), margin=0.1, what='brakes'),
     Row(id='e1.not_before', make=lambda: _sets_off(296), margin=-0.2, what='start'),
 )
 # 2 s after the trigger: at once is too early, and braking that goes on is none that begins.

@@ -55,6 +55,7 @@ def _stated(spec: ScenarioSpec) -> Placement:
             'alerts the bus.',
             False,
         ),
+        ('A car drives 30 m behind a bus. A motorcycle overtakes the car.', False),
         # What somebody else does changes nothing of it.
         ('A car drives 30 m behind a bus. A truck brakes after 20 s.', True),
         ('A car drives 30 m behind a bus. A drone alerts the car within 50 m of it.', True),

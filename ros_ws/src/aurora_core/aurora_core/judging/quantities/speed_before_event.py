@@ -16,7 +16,7 @@ from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
-from aurora_core.quantities.ticks import whole_ticks
+from aurora_core.quantities.ticks import first_tick, whole_ticks
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Event, EventDoneTrigger
@@ -62,16 +62,27 @@ class SpeedBeforeEvent(OfEvent):
             return 0
         trigger = None if event is None else event.trigger
         if isinstance(trigger, EventDoneTrigger):
-            return context.events.done_tick(trigger.event)
+            return self._stands_from(context, action, trigger.event)
         # It was to stop before, whichever event that was.
         stops = [
-            context.events.done_tick(e.id)
+            self._stands_from(context, action, e.id)
             for e in context.spec.events
             if isinstance(e.action, AgentAction)
             and e.action.agent == action.agent
             and e.action.do in ('stop', 'brake', 'yield')
         ]
         return min((tick for tick in stops if tick is not None), default=None)
+
+    def _stands_from(self, context: Context, action: AgentAction, before: str) -> int | None:
+        """Return when another event is over: where the agent brakes or yields, once it stands."""
+        done, event = context.events.done_tick(before), context.events.event(before)
+        other = None if event is None else event.action
+        rules = self.event_tolerances.actions
+        own = isinstance(other, AgentAction) and other.agent == action.agent
+        if done is None or rules is None or not own or other.do not in ('brake', 'yield'):
+            return done
+        speed = motion.speed(context.view, context.view.body(action.agent))
+        return first_tick(speed < rules.stop_mps, done)
 
 
 def implied(inputs: Inputs, event: Event, action: AgentAction, source: Source) -> Condition:
