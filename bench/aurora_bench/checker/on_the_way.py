@@ -31,7 +31,9 @@ def on_the_way(
         return holds('')
     scene = case.scene
     ticks = np.arange(0, scene.recording.ticks, max(1, round(STEP_S / scene.dt_s)))
-    under_way = scene.speed(leader)[ticks] > limits.FOLLOW_MOVING_MPS
+    walks = scene.is_person(leader)
+    least_mps = limits.STARTED_MPS if walks else limits.FOLLOW_MOVING_MPS
+    under_way = scene.speed(leader)[ticks] > least_mps
     ticks = ticks[under_way & (scene.times[ticks] < missions_end_s(scene))]
     gap, _ = ahead_of(scene, leader, follower, ticks)
     gap = np.where(scene.present(leader)[ticks] & scene.present(follower)[ticks], gap, np.nan)

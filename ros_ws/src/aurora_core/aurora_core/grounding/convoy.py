@@ -32,7 +32,9 @@ from aurora_core.grounding.ties import (
     in_passing_lane,
     passing_pairs,
     queued,
+    solved,
     spread,
+    with_room,
     without_implied,
 )
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -177,6 +179,7 @@ def split_scene(
     ties = queued(without_implied(ties), {a.id: {b.kind for b in a.behaviors} for a in vehicles})
     ties = spread(ties, {a.id: a.type for a in vehicles}, _on_either_side(vehicles))
     origin = _origin(spec, vehicles, ties)
+    ties = ties if origin is None else with_room(origin, ties)
     if origin is None:
         _, others = _before_place(vehicles, {}, distances)
         unsupported += [f'{i}: {BEFORE}' for i in others]
@@ -184,7 +187,7 @@ def split_scene(
             convoy=(), free=tuple(vehicles), persons=persons, oncoming=oncoming,
             unsupported=tuple(unsupported),
         )  # fmt: skip
-    offsets = _solve(origin, ties)
+    offsets = solved(origin, ties)
     # Who is watched or related to somebody else has to be on the same road: groups line up behind.
     targets = {m.target for m in spec.missions}
     targets |= {a.id for a in vehicles if bound_to_places(spec, a)}
@@ -213,7 +216,7 @@ def split_scene(
         alone = {m.agent.id for members in groups for m in members}
         if agent.id in offsets.keys() | alone or agent.id not in targets | tied:
             continue
-        group = _solve(agent.id, ties)
+        group = solved(agent.id, ties)
         if apart and any(bound_to_places(spec, by_id[i]) for i in group):
             groups.append(tuple(member(i, o, s) for i, (o, s) in group.items()))
             continue
@@ -392,6 +395,8 @@ def _chasing(agent: str, behaviors: Sequence[Behavior], distances: Distances) ->
         assert behavior.target is not None
         gap = behavior.closing_from_m
         distance_m = distances.between(agent, behavior.target, gap) + IN_LINE_M * number
+        # Whom it is to come near first may start farther away than the one after that.
+        distance_m = max([distance_m, *(IN_LINE_M - tie.offset_m for tie in ties)])
         told = gap is not None
         ties.append(Tie(agent, behavior.target, -distance_m, 0, free=not told, guess=not told))
     return ties
@@ -469,29 +474,3 @@ def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[Tie]) ->
         if group:
             return group[0]
     return None
-
-
-def _solve(origin: str, ties: list[Tie]) -> dict[str, tuple[float, int]]:
-    """Propagate offsets from the origin along the ties, in both directions.
-
-    What is said of a distance goes first: those that are free bend.
-    """
-    offsets: dict[str, tuple[float, int]] = {origin: (0.0, 0)}
-    said = sorted((t for t in ties if not t.free), key=lambda t: t.agent)
-    free = sorted((t for t in ties if t.free), key=lambda t: t.agent)
-    while any(_carry(tie, offsets) for tie in said) or any(_carry(tie, offsets) for tie in free):
-        pass
-    return offsets
-
-
-def _carry(tie: Tie, offsets: dict[str, tuple[float, int]]) -> bool:
-    """Place one of the two of a tie by the other; tell whether that was new."""
-    if tie.other in offsets and tie.agent not in offsets:
-        base = offsets[tie.other]
-        offsets[tie.agent] = (base[0] + tie.offset_m, base[1] + tie.lane_shift)
-        return True
-    if tie.agent in offsets and tie.other not in offsets:
-        base = offsets[tie.agent]
-        offsets[tie.other] = (base[0] - tie.offset_m, base[1] - tie.lane_shift)
-        return True
-    return False

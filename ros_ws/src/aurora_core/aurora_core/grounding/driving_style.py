@@ -19,6 +19,7 @@ from aurora_core.grounding.pace import (
     in_emergency,
     own_speed_mps,
     partings,
+    stated_speed_mps,
     tracked,
 )
 from aurora_core.grounding.sites import SeatedAgent, Site, tied_way_m
@@ -28,6 +29,7 @@ from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.settings import Settings, SpeedSettings
 from aurora_core.spec.own_events import let_cross, overtakings
 from aurora_core.spec.parking import stands
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
 
@@ -100,7 +102,9 @@ class ConvoyStyles:
         None where nobody with a stated speed keeps an exact distance behind it.
         """
         agents = {a.id: a for a in self._spec.agents}
-        speeds = [own_speed_mps(agents[name]) for name in self._led.get(agent.id, ())]
+        followers = [agents[name] for name in self._led.get(agent.id, ())]
+        spec, settings = self._spec, self._settings.grounding.speeds
+        speeds = [stated_speed_mps(spec, other, settings) for other in followers]
         stated = [speed for speed in speeds if speed is not None]
         if not stated or own_speed_mps(agent) is not None:
             return None
@@ -229,7 +233,8 @@ class ConvoyStyles:
         lasts = (_last(pair, self._seats) for pair in partings(self._spec))
         slow += [name for name in lasts if name is not None]
         slow += [other for _, other in approaches(self._spec)]
-        slow += self._led
+        hurried = _hurried(self._spec)
+        slow += [f for f, others in self._led.items() if hurried.isdisjoint((f, *others))]
         slowed = agent.id in slow and own_speed_mps(agent) is None
         return {'speed_factor': self._factor * grounding.chased_speed_factor} if slowed else {}
 
@@ -284,6 +289,16 @@ def urged_factor(record: AgentTypeRecord, speed_mps: float | None) -> float:
         return 0.0
     desired_mps = record.desired_speed_mps
     return 1.0 if desired_mps is None else max(1.0, speed_mps / desired_mps)
+
+
+def _hurried(spec: ScenarioSpec) -> frozenset[str]:
+    """Return whose speed is to be at least some number."""
+    return frozenset(
+        name
+        for one in spec.conditions
+        if one.quantity == QuantityName.SPEED and one.op in ('>=', '>')
+        for name in one.of
+    )
 
 
 def _in_line(spec: ScenarioSpec) -> frozenset[str]:

@@ -186,3 +186,53 @@ def _rank(kinds: set[BehaviorKind], offset_m: float) -> int:
     if BehaviorKind.TAILGATE in kinds:
         return 0
     return 2 if BehaviorKind.OVERTAKE in kinds else 1
+
+
+def with_room(origin: str, ties: list[Tie]) -> list[Tie]:
+    """Return ties in which nobody stands where another one does of whom nothing says where it is.
+
+    Such a one lines up behind, or ahead, until it has room.
+    """
+    found = list(ties)
+    tied = Counter(i for t in ties for i in (t.agent, t.other))
+    for number, tie in enumerate(ties):
+        if not tie.guess or tied[tie.agent] > 1 or tie.agent == origin:
+            continue
+        while _is_taken(tie.agent, solved(origin, found)):
+            step_m = copysign(IN_LINE_M, found[number].offset_m)
+            found[number] = replace(tie, offset_m=found[number].offset_m + step_m)
+    return found
+
+
+def _is_taken(agent: str, places: Mapping[str, tuple[float, int]]) -> bool:
+    own = places.get(agent)
+    return own is not None and any(
+        other != agent and lane == own[1] and abs(along_m - own[0]) < _SAME_PLACE_M
+        for other, (along_m, lane) in places.items()
+    )
+
+
+def solved(origin: str, ties: list[Tie]) -> dict[str, tuple[float, int]]:
+    """Propagate offsets from the origin along the ties, in both directions.
+
+    What is said of a distance goes first: those that are free bend.
+    """
+    offsets: dict[str, tuple[float, int]] = {origin: (0.0, 0)}
+    said = sorted((t for t in ties if not t.free), key=lambda t: t.agent)
+    free = sorted((t for t in ties if t.free), key=lambda t: t.agent)
+    while any(_carry(tie, offsets) for tie in said) or any(_carry(tie, offsets) for tie in free):
+        pass
+    return offsets
+
+
+def _carry(tie: Tie, offsets: dict[str, tuple[float, int]]) -> bool:
+    """Place one of the two of a tie by the other; tell whether that was new."""
+    if tie.other in offsets and tie.agent not in offsets:
+        base = offsets[tie.other]
+        offsets[tie.agent] = (base[0] + tie.offset_m, base[1] + tie.lane_shift)
+        return True
+    if tie.agent in offsets and tie.other not in offsets:
+        base = offsets[tie.agent]
+        offsets[tie.other] = (base[0] - tie.offset_m, base[1] - tie.lane_shift)
+        return True
+    return False

@@ -38,7 +38,7 @@ from aurora_core.quantities import motion
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent, Placement
-from aurora_core.spec.vocabulary import Relation
+from aurora_core.spec.vocabulary import AgentType, Relation
 
 
 class RelationFraction(Quantity):
@@ -186,9 +186,14 @@ def distance_kept(
     words = RELATION_WORDS[placement.relation]
     exact = distance.bound is Bound.EXACTLY
     binds = '' if exact else f'{bound_words(distance)} '
-    # Who closes up to one that waits at a signal still drives at its distance behind it.
-    moving_mps = inputs.tolerances.follow_slow_mps if exact and not placement.throughout else None
     leader = agent.id if placement.relation is Relation.AHEAD else of
+    moving_mps = None
+    if exact and not placement.throughout:
+        # Who closes up to one that waits at a signal still drives at its distance behind it.
+        front = inputs.agent(leader)
+        walks = front is not None and front.type is AgentType.PEDESTRIAN
+        t = inputs.tolerances
+        moving_mps = t.start_speed_mps if walks else t.follow_slow_mps
     counted = (
         'the time'
         if moving_mps is None
