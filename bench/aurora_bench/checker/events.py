@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from aurora_bench.checker import limits, uav_actions
@@ -86,12 +86,29 @@ def _happened(case: Case, requirement: Requirement) -> Happened:
         return Happened(cannot_tell(when.unclear))
     if not when.instants:
         return Happened(does_not(f'the trigger never became true ({when.why})'))
-    instants = _delayed(requirement, trigger, when.instants)
+    instants = _delayed(requirement, trigger, _rested(case, trigger, action, when.instants))
     if not action:
         first = instants[0]
         why = holds(f'at {first.late_s:.2f} s')
         return Happened(why, first.early_s, first.late_s, first.early_s)
     return _answered(case, requirement, trigger, action, instants)
+
+
+def _rested(
+    case: Case,
+    trigger: Mapping[str, Any],
+    action: Mapping[str, Any],
+    instants: tuple[Instant, ...],
+) -> tuple[Instant, ...]:
+    """Let who stops and then drives on stand for the time that makes it a stop."""
+    cause = case.annotation.events.get(str(trigger.get('event')), {}).get('action') or {}
+    stops = trigger.get('on') == 'event_done' and cause.get('do') == 'stop'
+    goes_on = action.get('do') in ('start', 'accelerate', 'change_lane')
+    if not stops or not goes_on or trigger.get('after_s') is not None:
+        return instants
+    if cause.get('agent') != action.get('agent'):
+        return instants
+    return tuple(replace(i, late_s=i.late_s + limits.STOPPED_S) for i in instants)
 
 
 def _delayed(

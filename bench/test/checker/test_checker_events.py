@@ -575,3 +575,16 @@ def test_who_brakes_comes_to_rest_before_it_starts_again(
     brakes = _event(AT_20, _does('brake'))
     goes = _event({'on': 'event_done', 'event': 'e1', 'after_s': 10}, _does('start'), ref='e2')
     assert stage.outcomes(brakes, goes) == ['holds', outcome]
+
+
+@pytest.mark.parametrize(
+    ('starts_s', 'outcome'), [(24.0, 'holds'), (25.1, 'holds'), (27.0, 'does_not')]
+)
+def test_who_stops_and_then_drives_on_stands_for_two_seconds_first(
+    stage: Any, starts_s: float, outcome: str
+) -> None:
+    back = starts_s + 4.0
+    stage.drive('car1', 'car', _profile((0, 8), (20, 8), (22, 0), (starts_s, 0), (back, 8)))
+    stops = _event(AT_20, _does('stop'))
+    goes = _event({'on': 'event_done', 'event': 'e1'}, _does('start'), ref='e2')
+    assert stage.outcomes(stops, goes) == ['holds', outcome]

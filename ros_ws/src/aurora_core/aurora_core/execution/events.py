@@ -24,6 +24,7 @@ from aurora_core.quantities.actions import (
     ActionRules,
     commanded_mps,
     is_complete,
+    rest_s,
     takes_time,
 )
 from aurora_core.quantities.instant import Point3
@@ -85,6 +86,7 @@ class _EventState:
         flies: Mission that somebody waits for a UAV to capture.
         lane: Lane that the agent is to leave, None when it is to keep its lane.
         stepped_on: Where a person that crosses stepped onto the carriageway.
+        drove_on: Who stands, or brakes to a standstill, was let drive on for it.
         done: Its action is complete.
     """
 
@@ -96,6 +98,7 @@ class _EventState:
     flies: str | None = None
     lane: int | None = None
     stepped_on: Point3 | None = None
+    drove_on: bool = False
     done: bool = False
 
 
@@ -163,6 +166,7 @@ class EventRunner:
         self._over_from: dict[str, int] = {}
         self._touchdown_m = battery.touchdown_m
         self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
+        self._progress.rests_s = {e.id: rest_s(spec.events, e, rules) for e in events}
         self._messages = 0
 
     @property
@@ -229,6 +233,7 @@ class EventRunner:
                 note(tick, ScenarioEventKind.TRIGGERED, event.id, '')
             if state.triggered_tick is None:
                 continue
+            commands += self._drives_on(state, seen)
             if state.acted:
                 self._finish(state, tick, seen, machines)
                 continue
@@ -240,6 +245,27 @@ class EventRunner:
                 note(tick, ScenarioEventKind.ACTION, event.id, '')
                 self._begun(state, tick, seen, machines)
         return commands
+
+    def _drives_on(self, state: _EventState, seen: Observation) -> list[GroundCommand]:
+        """Let who was to brake or stop before drive on to change lane."""
+        action, since = state.event.action, state.triggered_tick
+        if state.drove_on or not isinstance(action, AgentAction) or action.do != 'change_lane':
+            return []
+        held = any(
+            isinstance(s.event.action, AgentAction)
+            and s.event.action.agent == action.agent
+            and s.event.action.do in ('brake', 'stop')
+            and s.acted
+            and s.triggered_tick is not None
+            and since is not None
+            and s.triggered_tick <= since
+            for s in self._states
+        )
+        row, speed_mps = self._roster.agent_index(action.agent), seen.speed_mps(action.agent)
+        if not held or row is None or speed_mps is None or speed_mps >= _UNDER_WAY_MPS:
+            return []
+        state.drove_on = True
+        return [self._drive(row)]
 
     def _begun(
         self,

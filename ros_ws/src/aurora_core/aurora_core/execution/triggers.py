@@ -51,6 +51,7 @@ class Progress:
     received: set[tuple[str, str]] = field(default_factory=set)  # (receiver, sender)
     missions_done: set[str] = field(default_factory=set)  # UAV ids
     was_false: set[str] = field(default_factory=set)  # event ids
+    rests_s: dict[str, float] = field(default_factory=dict)  # by event, after a stop
     looking: set[str] = field(default_factory=set)  # UAVs between their ascent and way home
 
 
@@ -66,6 +67,7 @@ def holds(
     if isinstance(trigger, EventDoneTrigger):
         done = progress.done_tick.get(trigger.event)
         wait = 0.0 if trigger.after_s is None else trigger.after_s.value
+        wait = max(wait, progress.rests_s.get(event.id, 0.0))
         return done is not None and (tick - done) * dt_s >= wait - 1e-9
     if isinstance(trigger, MissionDoneTrigger):
         return trigger.uav in progress.missions_done

@@ -9,6 +9,7 @@ that already holds when it is due ("stop" of who stands) is complete at once.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,7 @@ from pydantic import FiniteFloat
 
 from aurora_core.document import Document
 from aurora_core.knowledge.limits import Tolerances
-from aurora_core.spec.events import AgentAction
+from aurora_core.spec.events import AgentAction, Event, EventDoneTrigger
 from aurora_core.spec.parameter import Bound
 
 FloatArray = npt.NDArray[np.float64]
@@ -30,6 +31,9 @@ _HOLDS_ALREADY = frozenset({'stop', 'slow'})
 
 # What only somebody on the move can do.
 FROM_MOTION = frozenset({'brake', 'stop', 'yield', 'slow', 'change_lane'})
+
+# What nobody does who stands.
+_GOES_ON = frozenset({'start', 'accelerate', 'change_lane'})
 
 # What may lack of the half, or of the gain, that an action without a number asks for (m/s).
 _NEARLY_MPS = 0.05
@@ -79,6 +83,22 @@ def takes_time(action: AgentAction) -> bool:
     if action.do == 'brake':
         return action.value_mps is not None
     return action.do in ('stop', 'slow', 'accelerate', 'start', 'change_lane', 'cross')
+
+
+def rest_s(events: Sequence[Event], event: Event, rules: ActionRules | None) -> float:
+    """Return how long an event waits for its agent to have stopped first, 0 for all others (s).
+
+    "Stops and then drives on": who stands for less time than that has not stopped. A wait that is
+    stated stays what it is.
+    """
+    trigger, action = event.trigger, event.action
+    if rules is None or not isinstance(trigger, EventDoneTrigger) or trigger.after_s is not None:
+        return 0.0
+    if not isinstance(action, AgentAction) or action.do not in _GOES_ON:
+        return 0.0
+    cause = next((e.action for e in events if e.id == trigger.event), None)
+    stops = isinstance(cause, AgentAction) and cause.agent == action.agent and cause.do == 'stop'
+    return rules.stop_hold_s if stops else 0.0
 
 
 def action_rules(tolerances: Tolerances) -> ActionRules:

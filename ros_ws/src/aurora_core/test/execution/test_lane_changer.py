@@ -120,3 +120,25 @@ def test_an_event_without_a_trigger_waits_for_who_is_to_drive(
     scene.put('van1', 500.0).put('ego', 30.0, 3.3, 4.0).step(2)
     scene.put('ego', 31.0, 3.3, 6.0).step()
     assert _orders(scene) == [(2, MODE, 257.0), (2, LANE, 2.0)]
+
+
+@pytest.mark.parametrize(('do', 'driven_at'), [('brake', 10), ('stop', 43)])
+def test_who_was_to_brake_or_stop_before_drives_on_to_change_lane(
+    do: str, driven_at: int, stage: Build, parameter: Make
+) -> None:
+    """It brakes for ten ticks; a stop is one once it has stood for 2 s, or 40 ticks."""
+    halts = Event(
+        id='e1',
+        trigger=TimeTrigger(on='time', at_s=parameter(0.0, 's')),
+        action=AgentAction(do=do, agent='ego'),  # type: ignore[arg-type]
+    )
+    then = Event(id='e2', trigger=EventDoneTrigger(on='event_done', event='e1'), action=CHANGE)
+    scene = stage(tracks={}, events=(halts, then), lanes=_street(1, 2))
+    scene.put('van1', 500.0).put('ego', 30.0, 3.3, 8.0).step(10 if do == 'brake' else 3)
+    scene.put('ego', 30.0, 3.3, 0.0).step(60)
+    driven = [
+        t
+        for t, _, kind, value in scene.commands()
+        if t > 3 and not (kind == GroundCommandKind.SET_SPEED and value == 0.0)
+    ]
+    assert driven[0] == driven_at
