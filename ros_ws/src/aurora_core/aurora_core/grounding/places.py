@@ -77,9 +77,9 @@ def has_point(place: str | None) -> bool:
 def arrivals(spec: ScenarioSpec, agent: GroundAgent) -> Iterator[ArrivalTrigger]:
     """Yield the triggers that wait for an agent to arrive somewhere.
 
-    A vehicle that is to come near a roadside unit at a landmark arrives at that.
+    A vehicle that is to come near a roadside unit, or a person, at a landmark arrives at that.
     """
-    units = {a.id: a for a in spec.agents if a.type is AgentType.RSU}
+    units = {a.id: a for a in spec.agents if a.type in _ON_FOOT}
     for trigger in (event.trigger for event in spec.events):
         if isinstance(trigger, ArrivalTrigger) and trigger.who == agent.id:
             yield trigger
