@@ -26,6 +26,7 @@ _WORDING = frozenset(
         'group',
         'id',
         'kept_in_motion',
+        'distance_at_start',
         'target_inferred',
     }
 )

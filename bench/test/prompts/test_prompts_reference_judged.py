@@ -165,3 +165,19 @@ def test_a_message_that_nobody_may_send_is_forbidden() -> None:
     assert (no.forbids, no.sender, no.receiver) == ('link', 'uav1', 'van1')  # type: ignore[union-attr]
     assert spec.events == ()
     assert f'{no.id}.holds' in condition_ids(spec)
+
+
+def test_a_distance_that_is_told_with_motion_is_asked_for_on_the_way() -> None:
+    text = 'A car drives 30 m behind a bus. A drone circles City Hall.'
+    bodies: tuple[Doc, ...] = (
+        {'id': 'r3', 'kind': 'agent', 'ref': 'car1', 'type': 'car'},
+        {'id': 'r4', 'kind': 'agent', 'ref': 'bus1', 'type': 'bus'},
+    )
+    behind: Doc = {
+        'id': 'r5', 'kind': 'placement', 'agent': 'car1', 'relation': 'behind', 'of': 'bus1',
+        'distance_m': 30,
+    }  # fmt: skip
+    told = reference_spec(asked(*bodies, {**behind, 'kept': True}, text=text), judged=True)
+    start = reference_spec(asked(*bodies, behind, text=text), judged=True)
+    assert told.agents[0].placements[0].keeps_distance
+    assert not start.agents[0].placements[0].keeps_distance
