@@ -12,6 +12,7 @@ from aurora_core.grounding.apart import layer_m
 from aurora_core.knowledge.limits import Limits
 from aurora_core.parsing import values
 from aurora_core.planning.bounds import bent
+from aurora_core.planning.deadlines import hurried
 from aurora_core.planning.ids import free_ids
 from aurora_core.planning.kept_distances import at_start_where_changed
 from aurora_core.planning.orders import waiting
@@ -57,7 +58,8 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     """
     spec = meeting(passed(blowing(spec, limits)))
     spec = waiting(hovering(reporting(telling(yielding(approaching(spec))))))
-    return layered(bent(lasting(at_start_where_changed(spec)), limits), limits)
+    timed = at_start_where_changed(hurried(spec, limits))
+    return layered(bent(lasting(timed), limits), limits)
 
 
 def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
