@@ -142,9 +142,9 @@ def conditions_depending(
         for other in _changed(spec, facet, derive):
             if other is None:
                 # No plan has it: what is judged of the element is judged on one that fits.
-                ids |= {c.id for c in conditions if element_of(facet.path) in c.spec_ids}
+                ids |= _own(known, facet)
                 continue
-            ids |= _differing(known, other)
+            ids |= _differing(known, other) | _spanning(facet, known, other)
         found[facet.path] = frozenset(ids)
     return found
 
@@ -180,7 +180,7 @@ def _depends(
     tried = False
     for other in _changed(spec, facet, derive):
         tried = True
-        if other is None or _differing(known, other):
+        if other is None or _differing(known, other) or _spanning(facet, known, other):
             return True
     # What cannot be otherwise is judged with the element that it belongs to.
     return not tried
@@ -212,6 +212,23 @@ def _differing(known: Mapping[str, Condition], other: Mapping[str, Condition]) -
         for name, condition in known.items()
         if name not in other or _asked(other[name]) != _asked(condition)
     }
+
+
+def _own(known: Mapping[str, Condition], facet: _Facet) -> set[str]:
+    element = element_of(facet.path)
+    return {name for name, condition in known.items() if element in condition.spec_ids}
+
+
+def _spanning(
+    facet: _Facet, known: Mapping[str, Condition], other: Mapping[str, Condition]
+) -> set[str]:
+    """Return the conditions of an order that another one would have beside more of them.
+
+    An order has one for every mission up to its second one: one that begins earlier, or ends
+    later, asks for all that this one asks for.
+    """
+    mine = _own(known, facet) if facet.keys[0] == 'orders' else set()
+    return mine if mine and _own(other, facet) > mine else set()
 
 
 def _spec_with(spec: ScenarioSpec, keys: tuple[str | int, ...], other: Any) -> ScenarioSpec:

@@ -13,7 +13,7 @@ from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounding import Unjudged
 from aurora_core.pipeline.functions import ground_stage, parse_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import Order, ScenarioSpec
 
 _KNOWN = installed_knowledge()
 
@@ -54,6 +54,17 @@ def test_traffic_beside_a_counted_scene_is_found() -> None:
 def test_a_place_where_something_is_to_be_done_is_judged() -> None:
     paths = _unjudged(_parsed('A drone tracks a bus that stops at the intersection.'))
     assert [path for path in paths if path.endswith('/target')] == []
+
+
+def test_the_order_of_three_missions_is_judged() -> None:
+    spec = _parsed(
+        'A drone hovers over City Hall at 50 m for 20 s. Then it hovers over Meadow Park at 40 m '
+        'for 10 s. Then it hovers over Ridge School at 40 m for 10 s.'
+    )
+    one, two, three = (m.id for m in spec.missions)
+    orders = (Order(id='o1', first=one, then=two), Order(id='o2', first=two, then=three))
+    found = _unjudged(ScenarioSpec.model_validate({**dict(spec), 'orders': orders}))
+    assert [path for path in found if path.startswith('orders/')] == []
 
 
 def test_own_conditions_of_an_agent_find_nothing_that_all_conditions_do_not() -> None:
