@@ -111,6 +111,13 @@ def _rested(
     return tuple(replace(i, late_s=i.late_s + limits.STOPPED_S) for i in instants)
 
 
+def trigger_of(case: Case, requirement: Requirement) -> tuple[Instant, ...]:
+    """Return when an event was due, by its trigger and delay; none where that is unclear."""
+    trigger = requirement.get('trigger') or {}
+    when = fired(case, trigger, lambda event: _done(case, event))
+    return () if when.unclear else _delayed(requirement, trigger, when.instants)
+
+
 def _delayed(
     requirement: Requirement, trigger: Mapping[str, Any], instants: tuple[Instant, ...]
 ) -> tuple[Instant, ...]:
@@ -177,7 +184,7 @@ def _ready_s(
     """Return from when on the event can happen, and at the latest can: after what it follows."""
     scene, ready = case.scene, 0.0
     actors = [action.get('uav')]
-    if action.get('do') == 'send_message':
+    if action.get('do') == 'send_message' and not _on_the_way_up(case, requirement, action):
         actors.append(action.get('sender'))
     for actor in actors:
         for body in case.bodies(actor):
@@ -211,6 +218,13 @@ def _ready_s(
             start = happened(case, first).start_s
             ready = max(ready, start) if start is not None else ready
     return ready, max(ready, at_last)
+
+
+def _on_the_way_up(case: Case, requirement: Requirement, action: Mapping[str, Any]) -> bool:
+    """Tell whether a UAV is to report an altitude of its own, which it may reach in its ascent."""
+    trigger = requirement.get('trigger') or {}
+    own = set(case.bodies(trigger.get('uav'))) & set(case.bodies(action.get('sender')))
+    return trigger.get('on') == 'altitude_reached' and bool(own)
 
 
 def _is_flown(requirement: Requirement, case: Case, uav: str) -> bool:

@@ -104,9 +104,23 @@ def _delivery(case: Case, sender: str, receiver: str) -> tuple[bool, float]:
             lossy = float(link.get('loss') or 0.0) > 0.0
             needed = not (lossy and tries == 0) and float(link.get('loss') or 0.0) < 1.0
             needed = needed and not link.get('outage_s')
+            needed = needed and not _kept_from(case, sender, receiver)
             most = latency * (1 + tries) + tries * limits.RETRANSMISSION_GAP_S
             return needed, max(limits.DELIVERED_S, most)
-    return True, limits.DELIVERED_S
+    return not _kept_from(case, sender, receiver), limits.DELIVERED_S
+
+
+def _kept_from(case: Case, sender: str, receiver: str) -> bool:
+    """Tell whether it is annotated that what is sent never arrives."""
+    return any(
+        one['kind'] == 'condition'
+        and one.get('quantity') == 'delivered'
+        and one.get('value') is False
+        and not one.get('negate')
+        and sender in case.bodies(one['of'][0])
+        and receiver in [body for name in one['of'][1:] for body in case.bodies(name)]
+        for one in case.annotation.flat()
+    )
 
 
 def change_mission(

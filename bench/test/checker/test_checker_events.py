@@ -526,6 +526,34 @@ def test_the_end_of_an_ascent_is_no_climb_of_its_own(stage: Any) -> None:
     assert stage.says(_event({'on': 'time', 'at_s': 29.8}, climb)) == 'holds'
 
 
+def test_what_is_not_to_arrive_is_sent_all_the_same(stage: Any) -> None:
+    stage.ground('car1', 'car', 0.0, 20.0)
+    stage.ground('bus1', 'bus', 0.0, 40.0)
+    stage.message('car1', 'bus1', 20.0, latency=None, losses=4, reason=2)
+    tells = _event(AT_20, {'do': 'send_message', 'sender': 'car1', 'receiver': 'bus1'})
+    kept = {'kind': 'condition', 'quantity': 'delivered', 'of': ['car1', 'bus1'], 'op': '=='}
+    assert stage.says(tells) == 'does_not'
+    assert stage.says(tells, {**kept, 'value': False}) == 'holds'
+    assert stage.says(tells, {**kept, 'value': True}) == 'does_not'
+
+
+@pytest.mark.parametrize(
+    ('sent', 'outcome'), [(5.2, 'holds'), (3.0, 'does_not'), (10.2, 'does_not')]
+)
+def test_an_altitude_of_the_ascent_is_reported_in_it(
+    stage: Any, sent: float, outcome: str
+) -> None:
+    """It climbs to 40 m in 10 s."""
+    stage.uav('drone', lambda t: (0, 0, 40.0))
+    stage.ground('car1', 'car', 0.0, 20.0)
+    stage.message('drone', 'car1', sent)
+    tells = _event(
+        {'on': 'altitude_reached', 'uav': 'drone', 'value_m': 20},
+        {'do': 'send_message', 'sender': 'drone', 'receiver': 'car1'},
+    )
+    assert stage.says(tells) == outcome
+
+
 @pytest.mark.parametrize(
     ('start', 'outcome'), [(27.0, 'holds'), (29.0, 'holds'), (33, 'does_not')]
 )

@@ -28,7 +28,7 @@ from aurora_core.quantities.actions import (
     takes_time,
 )
 from aurora_core.quantities.instant import Point3
-from aurora_core.spec.events import actor_of
+from aurora_core.spec.events import actor_of, reports_own_altitude
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import (
@@ -394,14 +394,17 @@ class EventRunner:
     def _allowed(
         self, event: Event, seen: Observation, machines: Sequence[MissionMachine]
     ) -> bool:
-        """A UAV reports only what it sees: after its ascent, when tracking after capture."""
+        """A UAV reports only what it sees: after its ascent, when tracking after capture.
+
+        Once it has landed it reports nothing. Its own altitude it reports when it is reached.
+        """
         if not isinstance(event.action, SendMessage):
             return True
         sender = event.action.sender
         machine = next((m for m in machines if m.plan.id == sender), None)
-        if machine is None:
+        if machine is None or reports_own_altitude(event):
             return True
-        if machine.ascended_tick is None:
+        if machine.ascended_tick is None or machine.landed:
             return False
         missions = machine.plan.missions
         flown = [m for m in missions if not m.waits] or missions

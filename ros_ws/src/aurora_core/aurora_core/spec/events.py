@@ -224,6 +224,16 @@ def bodies_of_cause(event: Event) -> frozenset[str]:
     return bodies_of(event.model_copy(update={'action': None}))
 
 
+def reports_own_altitude(event: Event) -> bool:
+    """Tell whether a UAV sends a message when it has reached an altitude, on its way up, too."""
+    action, trigger = event.action, event.trigger
+    return (
+        isinstance(action, SendMessage)
+        and isinstance(trigger, AltitudeTrigger)
+        and trigger.uav == action.sender
+    )
+
+
 def actor_of(event: Event) -> str | None:
     """Return the body whose behaviour triggers an event, None when there is no such body.
 

@@ -22,6 +22,7 @@ from aurora_core.spec.events import (
     bodies_of_cause,
 )
 from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.parking import parks, stands
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
 from aurora_core.spec.vocabulary import MissionMode
 
@@ -110,6 +111,28 @@ def left_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:
     return next(iter(ending_landings(spec, mission.uav)), None)
 
 
+def cut_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:
+    """Return the event that may end a mission, also one whose length is stated.
+
+    "Tracks the van for 90 s; when the bus stops it lands": then it does.
+    """
+    event = left_by(spec, mission)
+    if event is not None or mission_after(spec, mission) is not None:
+        return event
+    landings = (e for e in spec.events if isinstance(e.action, UavAction) and e.action.lands)
+    return next(
+        (
+            e
+            for e in landings
+            if e.action is not None
+            and getattr(e.action, 'uav', None) == mission.uav
+            and e.trigger is not None
+            and not _waits_for_missions(spec, e, mission.uav)
+        ),
+        None,
+    )
+
+
 def ending_landings(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
     """Return the landings told of an event that a UAV awaits: nobody states when that is.
 
@@ -164,9 +187,20 @@ def awaits_reports(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
         and isinstance(
             e.trigger, DistanceTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger
         )
-        # Getting far from a body may be by going home.
-        and not (e.trigger.on == 'distance_above' and uav in bodies_of_cause(e))
+        and not (e.trigger.on == 'distance_above' and _gets_far_itself(spec, e, last))
     )
+
+
+def _gets_far_itself(spec: ScenarioSpec, event: Event, last: UavMission) -> bool:
+    """Tell whether a UAV may get far from somebody by its own flight, or by going home.
+
+    One that hovers stays where it is: whoever moves gets far from it.
+    """
+    others = bodies_of_cause(event) - {last.uav}
+    agents = [a for a in spec.agents if a.id in others]
+    leaves = any(not stands(a) and not parks(spec, a) for a in agents)
+    hovers = last.mode is MissionMode.HOVER
+    return last.uav in bodies_of_cause(event) and not (hovers and leaves)
 
 
 def _has_no_length(mission: UavMission) -> bool:

@@ -400,6 +400,15 @@ def test_an_alert_is_not_sent_while_the_actor_is_hidden(stage: Build, parameter:
     assert _sent(scene) == [5]
 
 
+def test_a_uav_reports_its_own_altitude_on_its_way_up(stage: Build, parameter: Make) -> None:
+    trigger = AltitudeTrigger(on='altitude_reached', uav='uav1', value_m=parameter(15.0))
+    event = _event(trigger, SendMessage(do='send_message', sender='uav1', receiver='ego'))
+    scene = stage(events=(event,), links=(('uav1', 'ego'),))
+    for z in (5.0, 14.5, 20.0, 30.0):  # it is to ascend to 30 m
+        scene.fly('uav1', 0.0, 0.0, z).step()
+    assert _sent(scene) == [1]
+
+
 def test_a_vehicle_sends_without_a_sight_rule(stage: Build, parameter: Make) -> None:
     send = SendMessage(do='send_message', sender='ego', receiver='van1')
     event = _distance('distance_below', parameter).model_copy(update={'action': send})

@@ -108,6 +108,20 @@ def test_a_uav_stays_up_until_it_has_reported(read_prompt: Read, ground: Ground)
         assert (events[0] in plan.lands_after) is stays
 
 
+def test_a_hover_lasts_until_somebody_has_got_far_enough(
+    read_prompt: Read, ground: Ground
+) -> None:
+    far = 'is more than 180 m away from the drone, the drone sends a message to a roadside unit.'
+    leaves = f'A drone hovers over Ridge School at 60 m. When a van {far}'
+    stands = (
+        f'A van is parked at Ridge School. A drone hovers over Ridge School. When the van {far}'
+    )
+    for prompt, stays in ((leaves, True), (stands, False)):
+        spec = read_prompt(prompt, 'downtown')
+        (plan,) = plans_with_events(spec, ground(spec, 'downtown').uavs, ())
+        assert bool(plan.lands_after) is stays
+
+
 def test_a_route_is_flown_until_its_uav_has_reported(read_prompt: Read, ground: Ground) -> None:
     report = read_prompt(
         PATROL + 'It tells the police car when a truck is within 60 m of the drone.', 'downtown'

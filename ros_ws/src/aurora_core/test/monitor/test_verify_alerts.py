@@ -44,6 +44,18 @@ def test_a_tailgating_van_and_its_alert_are_verified(tb: ModuleType) -> None:
     assert found['e1.actor_visible'].satisfied
 
 
+def test_a_message_from_the_ground_is_no_report_of_a_flight(tb: ModuleType) -> None:
+    """It has landed, down from 30 m since 15 s, when it says what it was to see."""
+    case = tb.tailgate_case()
+    van = case.run.agents[1]
+    case.run.flights[0] = tb.flight(
+        1401, (0.0, 20.0), 30.0, lambda k: (float(van.x[k]), float(van.y[k]), 30.0), landing=300
+    )
+    found = _results(tb, case)['e1.after_capture']
+    assert not found.satisfied
+    assert 'from the ground' in found.explanation
+
+
 def test_retransmissions_take_time(tb: ModuleType) -> None:
     found = _results(tb, tb.tailgate_case(lost=2))['e1.delivered']
     assert found.margin == pytest.approx(2.0 - (2 * 0.2 + 0.1))

@@ -20,6 +20,9 @@ from aurora_core.spec.vocabulary import MissionMode
 class SentAfterCapture(OfEvent):
     """Time from the sender's ascent or capture to the first message of an event, seconds.
 
+    Of a message that is sent from the ground again it is the time since the last one in the air,
+    negative.
+
     Attributes:
         after: What it has to have finished.
     """
@@ -34,15 +37,22 @@ class SentAfterCapture(OfEvent):
         sent = messages_of_event(context, condition, self.event)
         if isinstance(sent, Missing):
             return sent
+        flight = context.flight(self.missions[0], self.touchdown_m)
+        ready, down = flight.ascent_end_tick, flight.landed_tick
         if self.after == 'capture':
             tracking = [m for m in self.missions if m.mode is MissionMode.TRACK]
             ready = context.phase(tracking[0], self.touchdown_m).capture_tick
-        else:
-            ready = context.flight(self.missions[0], self.touchdown_m).ascent_end_tick
         first, sender = min(message.sent_tick for message in sent), condition.of[0]
         if ready is None:
             story = f'{self.event} was sent, but {sender} never finished its {self.after}'
             return Missing(reason=Reason.EMPTY_PHASE, story=story, tick=first)
+        if down is not None and first >= down:
+            value = context.time_s(down - 1 - first)
+            story = (
+                f'{sender} sent {self.event} from the ground at {context.time_s(first):.2f} s, '
+                f'it was down at {context.time_s(down):.2f} s'
+            )
+            return at_tick(first, value, story, ('comm', f'uav/state[{sender}]'))
         value = context.time_s(first - ready)
         story = (
             f'{sender} sent {self.event} at {context.time_s(first):.2f} s, {value:.2f} s after '
