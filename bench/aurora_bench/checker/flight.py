@@ -35,6 +35,7 @@ class Flight:
         targets: Bodies or places that the target can mean; empty: none stated.
         until: Tick at which an event changes the flight (its end otherwise).
         climbs: An event changes its altitude.
+        cut: An annotated event ends it, maybe before its stated time.
     """
 
     scene: Scene
@@ -44,6 +45,7 @@ class Flight:
     variation: Mapping[str, Any]
     until: int
     climbs: bool = False
+    cut: bool = False
 
     @property
     def ticks(self) -> slice:

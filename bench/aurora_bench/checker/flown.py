@@ -10,14 +10,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aurora_bench.checker import missions
+from aurora_bench.checker import limits, missions
 from aurora_bench.checker.answers import Judged, Outcome, all_of, cannot_tell, does_not
 from aurora_bench.checker.case import Case, Requirement
-from aurora_bench.checker.events import STATES, happened
+from aurora_bench.checker.events import STATES, happened, trigger_of
 from aurora_bench.checker.flight import Flight, asked_altitude
 from aurora_bench.checker.phases import Segment, segments
 
 MOST_MISSIONS = 6
+# What ends the mission that a UAV is on, and how near to that event its end is (s).
+ENDS_MISSIONS = ('change_mission', 'land', 'return_home', 'hand_over')
+CUT_S = 0.5
 SCORE = {Outcome.HOLDS: 100, Outcome.CANNOT_TELL: 1, Outcome.DOES_NOT: 0}
 
 
@@ -135,7 +138,35 @@ def flight(case: Case, requirement: Requirement, uav: str, segment: Segment) -> 
         variation=case.variation,
         until=min((segment.end, *climbs)),
         climbs=bool(climbs),
+        cut=_is_cut(case, uav, segment),
     )
+
+
+def _is_cut(case: Case, uav: str, segment: Segment) -> bool:
+    """Tell whether an annotated event of a UAV happens just when one of its missions ends.
+
+    What waits for the end of that mission itself cuts nothing.
+    """
+    if not segment.closed:
+        return False
+    end_s = float(case.scene.times[segment.end])
+    for event in case.annotation.flat():
+        action, trigger = event.get('action') or {}, event.get('trigger') or {}
+        ends = event['kind'] == 'event' and action.get('do') in ENDS_MISSIONS
+        waits = trigger.get('on') in (None, 'mission_done')
+        if not ends or waits or uav not in case.bodies(action.get('uav')):
+            continue
+        if action.get('do') == 'hand_over':  # its end does not show in what the other one does
+            when = trigger_of(case, event)
+            late_s = limits.ONSET_S + CUT_S
+            if any(i.early_s - CUT_S <= end_s <= i.late_s + late_s for i in when):
+                return True
+            continue
+        found = happened(case, event)
+        fits = found.judged.outcome is not Outcome.DOES_NOT or action['do'] == 'change_mission'
+        if fits and found.start_s is not None and abs(found.start_s - end_s) <= CUT_S:
+            return True
+    return False
 
 
 def _climbs(case: Case, requirement: Requirement, uav: str, segment: Segment) -> Iterator[int]:

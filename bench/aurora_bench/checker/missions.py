@@ -94,7 +94,8 @@ def _duration(flight: Flight, requirement: Mapping[str, Any], early: int, late: 
     why = f'phase of {least:.2f} s'
     why += f' to {most:.2f} s' if most > least else ''
     slack = 2 * scene.dt_s
-    ok = most >= asked.low - slack and least <= asked.high + slack
+    ok = (flight.cut or most >= asked.low - slack) and least <= asked.high + slack
+    why += ', ended by its event' if flight.cut else ''
     return decide(ok, f'{why}, asked {asked.text()} s')
 
 

@@ -502,3 +502,19 @@ def test_without_a_standoff_a_uav_may_be_above_its_target(
     stage.uav('drone', lambda t: (8.0 * t - away + aside + swing, -1.65, 40.0))
     without = {k: v for k, v in TRACK.items() if k not in ('standoff_m', 'duration_s')}
     assert stage.says(without) == outcome
+
+
+@pytest.mark.parametrize(('at_s', 'outcome'), [(50.0, 'holds'), (30.0, 'does_not')])
+def test_an_event_ends_a_mission_before_its_stated_time(
+    stage: Any, at_s: float, outcome: str
+) -> None:
+    """It hovers from 10 to 50 s, of the 80 s that it is to."""
+    stage.uav('drone', lambda t: (210, 30, 50))
+    land = {
+        'kind': 'event',
+        'ref': 'e1',
+        'trigger': {'on': 'time', 'at_s': at_s},
+        'action': {'do': 'land', 'uav': 'drone'},
+    }
+    assert stage.says({**HOVER, 'duration_s': 80}, land) == outcome
+    assert stage.says({**HOVER, 'duration_s': 20}, land) == 'does_not'

@@ -11,7 +11,7 @@ from aurora_core.judging.build import Inputs
 from aurora_core.knowledge.limits import climb_share_mps, descent_share_mps, hover_capture_m
 from aurora_core.outcomes.condition import ClimbArguments, MissionArguments
 from aurora_core.outcomes.schedule import MissionFacts
-from aurora_core.spec.flight_order import climbs_last, left_by
+from aurora_core.spec.flight_order import climbs_last, cut_by
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.scenario import UavAction, UavMission
 from aurora_core.spec.vocabulary import MissionMode
@@ -41,7 +41,7 @@ def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
         )
     first_altitude = _explicit_or(own[0].altitude_m, first_facts.altitude_m)
     point = _first_point(mission, facts)
-    ends = left_by(inputs.spec, mission)
+    ends = cut_by(inputs.spec, mission)
     track = mission.mode is MissionMode.TRACK
     hover = mission.mode is MissionMode.HOVER
     horizontal = (

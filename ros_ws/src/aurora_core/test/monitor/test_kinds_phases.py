@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from kind_rows import Row, grounded, stated
 from trace_builder import Run, building, driver, flight, number, world
-from trace_cases import Case, agent, facts_of, hover_case, mission, spec
+from trace_cases import Case, agent, facts_of, hover_case, judge, mission, result, spec
 
 from aurora_core.knowledge.world import NamedPlace
 from aurora_core.outcomes.schedule import MissionFacts
@@ -305,3 +305,45 @@ ROWS = MISSIONS + ORDERS + UAVS + PLACES
 @pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)
 def test_phases_of_kinds(row: Row) -> None:
     row.check()
+
+
+@pytest.mark.parametrize(
+    ('at_s', 'asked_s', 'satisfied'),
+    [(30.0, 60.0, True), (30.0, 5.0, False), (32.0, 60.0, False)],
+)
+def test_a_stated_length_holds_unless_an_event_ends_the_mission(
+    at_s: float, asked_s: float, satisfied: bool
+) -> None:
+    """It leaves its first mission at 30 s: for its event, too late, or before that event."""
+    case = two_missions()
+    one, two = case.spec.missions
+    lasts = one.model_copy(update={'duration_s': number(asked_s, Unit.SECOND, explicit=True)})
+    change = {
+        'id': 'e1',
+        'trigger': {'on': 'time', 'at_s': number(at_s, Unit.SECOND)},
+        'action': {'do': 'change_mission', 'uav': 'uav1', 'mission': 'm2'},
+    }
+    changed = {'missions': (lasts, two), 'events': (change,)}
+    case.spec = spec(**{**dict(case.spec), **changed})
+    found = result(judge(case), 'm1.duration')
+    assert found.satisfied is satisfied
+    assert ('until e1 ended it' in found.explanation) is satisfied
+
+
+def test_a_landing_ends_a_mission_of_a_stated_length() -> None:
+    """The last mission, of 60 s, is left for the landing at 50 s that an event asks for."""
+    case = two_missions()
+    one, two = case.spec.missions
+    lasts = two.model_copy(update={'duration_s': number(60.0, Unit.SECOND, explicit=True)})
+    for at_s, satisfied in ((50.0, True), (20.0, False)):
+        land = {
+            'id': 'e1',
+            'trigger': {'on': 'time', 'at_s': number(at_s, Unit.SECOND)},
+            'action': {'do': 'land', 'uav': 'uav1'},
+        }
+        changed = {'missions': (one, lasts), 'events': (land,)}
+        case.spec = spec(**{**dict(case.spec), **changed})
+        verdict = judge(case)
+        assert verdict.status is not None
+        assert result(verdict, 'e1.within').satisfied is satisfied
+        assert result(verdict, 'm2.duration').satisfied
