@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import inf
 
 import numpy as np
@@ -17,6 +17,7 @@ from aurora_core.grounding.entries import entry_speeds_mps
 from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import GoalFinder, stop_after_m, stops
+from aurora_core.grounding.hearing import Hearing, reaches_of
 from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
@@ -42,6 +43,7 @@ from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath, arc_at
 from aurora_core.knowledge.settings import Settings
+from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.parking import parks, parks_after, stands
@@ -137,10 +139,13 @@ class AgentPlacer:
         split: SceneSplit,
         site: Site,
         placed: list[GroundedAgent],
+        uavs: Sequence[UavPlan],
         run_m: float,
         generator: np.random.Generator,
     ) -> tuple[list[GroundedAgent], tuple[str, ...]]:
         """Add the free vehicles on random lanes around, apart from everybody else.
+
+        Who talks by radio with somebody who stays at a place keeps near that place.
 
         Returns:
             All agents in the order of the specification, and what found no place.
@@ -153,8 +158,10 @@ class AgentPlacer:
         missing = []
         for agent in split.free:
             release = own_release(spec, agent, Release())
+            reaches = reaches_of(spec, agent.id, placed, uavs, self._limits)
+            hearing = Hearing(self._map.network, reaches)
             grounded = self._free_agent(
-                spec, agent, release, room, run_m, generator, parked=parks(spec, agent)
+                spec, agent, release, room, hearing, run_m, generator, parked=parks(spec, agent)
             )
             if grounded is None:
                 missing.append(f'{agent.id}: no free lane within reach')
@@ -169,6 +176,7 @@ class AgentPlacer:
         agent: GroundAgent,
         release: Release,
         room: FreeRoom,
+        hearing: Hearing,
         run_m: float,
         generator: np.random.Generator,
         *,
@@ -195,20 +203,23 @@ class AgentPlacer:
             lanes = with_another_lane(lanes)
         if not lanes:
             return None
+        heard = [lane for lane in lanes if hearing.ends_inside(lane.edge_id)]
+        if hearing.reaches and heard:
+            lanes, low, high = heard, 0.0, inf
         margin = record.length_m / 2.0 + 1.0
         drawn = ((p, high) for p in room.drawn(lanes, margin, generator))
         # A crowd that fills the surroundings may spread over the whole map.
         scanned = ((p, inf) for p in room.scanned(lanes, margin))
         pace_mps = speed_mps or self._settings.grounding.target_speed_mps
         needed_m = needed_run_m(spec, agent, pace_mps)
-        best: tuple[float, RoutePath, float] | None = None
+        best: tuple[tuple[float, float], RoutePath, float] | None = None
         tries = 0
         for (lane, position, away_m), reach in itertools.chain(drawn, scanned):
             if not low <= away_m <= reach:
                 continue
             if not may_stand(self._spawns, record.name, lane.id, arc_at(lane, position)):
                 continue
-            edges = finder.wandering_route(lane.edge_id, run_m, generator)
+            edges = finder.wandering_route(lane.edge_id, run_m, generator, hearing.ends_inside)
             try:
                 path = network.route_path(
                     edges,
@@ -221,10 +232,10 @@ class AgentPlacer:
                 continue
             arc_m = path.arc_of(lane.id, position)
             tries += 1
-            free_m = min(needed_m, free_run_m(path, arc_m))
-            if best is None or free_m > best[0]:
-                best = (free_m, path, arc_m)
-            if best[0] >= needed_m or tries >= _RUNS_TRIED:
+            suits = hearing.share_inside(path, arc_m), min(needed_m, free_run_m(path, arc_m))
+            if best is None or suits > best[0]:
+                best = (suits, path, arc_m)
+            if best[0] >= (1.0, needed_m) or tries >= _RUNS_TRIED:
                 break
         if best is None:
             return None

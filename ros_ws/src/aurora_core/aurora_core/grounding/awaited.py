@@ -71,18 +71,37 @@ class Leaving:
 
 
 def leaving(spec: ScenarioSpec) -> tuple[Leaving, ...]:
-    """Return who is to get far from places, of those to whom nothing else gives a place."""
+    """Return who is to get far from places, of those to whom nothing else gives a place.
+
+    A UAV that hovers at a place is as far as that, and as it is high.
+    """
     free = {agent.id for agent in spec.agents if not _has_place(spec, agent)}
     return tuple(
-        Leaving(agent=agent, place=place, event=event, beyond_m=event.trigger.value_m.value)
+        found
         for event in spec.events
         if isinstance(event.trigger, DistanceTrigger) and event.trigger.on == 'distance_above'
-        for agent, place in (
+        for agent, other in (
             (event.trigger.a, event.trigger.b),
             (event.trigger.b, event.trigger.a),
         )
-        if agent in free and has_point(place)
+        if agent in free
+        for found in _leaving(spec, event, agent, other, event.trigger.value_m.value)
     )
+
+
+def _leaving(
+    spec: ScenarioSpec, event: Event, agent: str, other: str, value_m: float
+) -> Iterator[Leaving]:
+    if has_point(other):
+        yield Leaving(agent=agent, place=other, event=event, beyond_m=value_m)
+        return
+    mission = _waiting_there(spec, event, other)
+    hovers = mission is not None and mission.mode is MissionMode.HOVER
+    if mission is None or not hovers or mission.target is None:
+        return
+    square = value_m * value_m - mission.altitude_m.value**2
+    if square > 0.0:
+        yield Leaving(agent=agent, place=mission.target, event=event, beyond_m=sqrt(square))
 
 
 def is_kept_away(spec: ScenarioSpec, patrol: UavMission) -> bool:
@@ -115,20 +134,22 @@ def kept_away_m(spec: ScenarioSpec, patrol: UavMission, range_m: float) -> float
     return reach_m + hypot(*sizes) + _BEYOND_M
 
 
-def near_its_sender(spec: ScenarioSpec, unit: GroundAgent) -> GroundAgent:
-    """Return a roadside unit with a place where it can be told what it is to be told.
+def near_its_partner(spec: ScenarioSpec, unit: GroundAgent) -> GroundAgent:
+    """Return a roadside unit with a place where it can be told, and tell, what it is to.
 
-    Nobody says where it is, but somebody's arrival is reported to it, or a UAV reports that stays
-    at a place: so near to that it is in reach of the radio.
+    Nobody says where it is, but somebody's arrival is reported to it, or a UAV that stays at a
+    place reports to it, or is told something by it: so near to that it is in reach of the radio.
     """
     if unit.type is not AgentType.RSU or unit.placements or unit.behaviors:
         return unit
     for event in spec.events:
-        if not isinstance(event.action, SendMessage) or event.action.receiver != unit.id:
+        action = event.action
+        if not isinstance(action, SendMessage) or unit.id not in (action.sender, action.receiver):
             continue
-        stays = _waiting_there(spec, event, event.action.sender)
+        told = action.receiver == unit.id
+        stays = _waiting_there(spec, event, action.sender if told else action.receiver)
         place = None if stays is None else stays.target
-        if isinstance(event.trigger, ArrivalTrigger):
+        if told and isinstance(event.trigger, ArrivalTrigger):
             place = event.trigger.place
         if has_point(place):
             near = Placement(relation=Relation.NEAR, of=place)

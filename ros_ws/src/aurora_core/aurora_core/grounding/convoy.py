@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from aurora_core.grounding.awaited import bound_to_places, near_its_sender
+from aurora_core.grounding.awaited import bound_to_places, near_its_partner
 from aurora_core.grounding.distances import ALONG, DETACHED_M, Distances
 from aurora_core.grounding.nearby import BY_PERSONS, ON_SIDEWALKS, begins_near, reported
 from aurora_core.grounding.one_place import common_places, is_before_place
@@ -39,6 +39,7 @@ from aurora_core.grounding.ties import (
 )
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import EXACT, Tolerance
+from aurora_core.spec.events import sets_off
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.parking import parks, stands
@@ -148,7 +149,7 @@ def split_scene(
     oncoming = tuple(a for a in driving if a.id in meets and a.id not in met)
     vehicles = [a for a in driving if a not in oncoming]
     # A roadside unit stands on the sidewalk as a person does who waits.
-    persons = tuple(near_its_sender(spec, a) for a in spec.agents if a.type in ON_SIDEWALKS)
+    persons = tuple(near_its_partner(spec, a) for a in spec.agents if a.type in ON_SIDEWALKS)
     unsupported: list[str] = []
     by_id = {a.id: a for a in vehicles}
     speeds = {a.id: v for a in spec.agents if (v := own_speed_mps(a)) is not None}
@@ -222,10 +223,10 @@ def split_scene(
             continue
         shift_m = _behind_m(group, offsets)
         # Nobody drives who stands in somebody's way: who is only told something stays where it
-        # is, and who stands all along is behind those who do not.
+        # is, and who stands, all along or until an event, is behind those who do not.
         awaited = any(bound_to_places(spec, by_id[i]) for i in group)
         idle = awaited and not any(moves(spec, by_id[i]) for i in offsets)
-        if not _stand(group, by_id) and (idle or _stand(offsets, by_id)):
+        if not _stand(spec, group, by_id) and (idle or _stand(spec, offsets, by_id)):
             shift_m = -_behind_m(offsets, group)
         offsets |= {i: (place[0] + shift_m, place[1]) for i, place in group.items()}
     places = offsets | {
@@ -275,8 +276,8 @@ def _behind_m(
     return min(place[0] for place in others.values()) - DETACHED_M - front
 
 
-def _stand(ids: Iterable[str], by_id: Mapping[str, GroundAgent]) -> bool:
-    return all(stands(by_id[i]) for i in ids)
+def _stand(spec: ScenarioSpec, ids: Iterable[str], by_id: Mapping[str, GroundAgent]) -> bool:
+    return all(stands(by_id[i]) or sets_off(spec.events, i) is not None for i in ids)
 
 
 def oncoming_to(agent: GroundAgent) -> Placement | None:

@@ -76,7 +76,8 @@ _GOOD_CLEARANCE_M = 15.0
 _PERFECT = 1.0 - 1e-9
 # What is left of a road's score where a bend spoils a stated distance.
 _BENT = 0.1
-# And where it does not lead to where an event waits for somebody.
+# And where it leads by turns, or does not lead, to where an event waits for somebody.
+_DETOUR = 0.6
 _ASTRAY = 0.1
 # And where two who are to come near each other are so from the start on, or never.
 _NEVER = 0.1
@@ -328,8 +329,8 @@ class Grounder:
             road *= 0.5 + 0.5 * free if followed else 1.0
             if bends_between(spec, site, self._tolerances.placement_vehicle_m, split.before):
                 road *= _BENT
-            if not self._goals.leads(spec, site, wide=True):
-                road *= _ASTRAY
+            if not self._goals.leads(spec, site):
+                road *= _DETOUR if self._goals.leads(spec, site, wide=True) else _ASTRAY
             if outruns(spec, limit_mps, grounding.speeds):
                 road *= _ASTRAY
             road *= max(_NEVER, heard(spec, site, places, self._limits))
@@ -457,7 +458,7 @@ class Grounder:
         placer = AgentPlacer(*known, self._settings, *rules, self._goals, run_s, self._spawns)
         agents = [*placer.convoy(spec, split, best.site), *persons.grounded(spec, best.site)]
         generator = stream(seed, 'grounding:background')
-        agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)
+        agents, missing = placer.free(spec, split, best.site, agents, uavs, run_m, generator)
         traffic = TrafficPlacer(*known, self._settings.grounding, *rules, self._spawns)
         homes = [(uav.home_x_m, uav.home_y_m) for uav in uavs]
         draws = stream(seed, 'grounding:traffic')

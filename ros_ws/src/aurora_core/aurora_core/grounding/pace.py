@@ -16,6 +16,7 @@ from aurora_core.grounding.awaited import awaited_at
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings, SpeedSettings
 from aurora_core.quantities.actions import FROM_MOTION
+from aurora_core.spec.events import sets_off
 from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.quantity import QuantityName
@@ -24,6 +25,7 @@ from aurora_core.spec.scenario import (
     DistanceTrigger,
     EventDoneTrigger,
     GroundAgent,
+    MissionDoneTrigger,
     ScenarioSpec,
     SpeedTrigger,
     TimeTrigger,
@@ -146,6 +148,14 @@ def moves(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     return bool(agent.behaviors) or tied or acted or met or awaited
 
 
+def moves_during(spec: ScenarioSpec, agent: GroundAgent, mission: UavMission) -> bool:
+    """Whether an agent moves while a UAV is on a mission: not who sets off when that is over."""
+    event = sets_off(spec.events, agent.id)
+    trigger = None if event is None else event.trigger
+    later = isinstance(trigger, MissionDoneTrigger) and trigger.uav == mission.uav
+    return moves(spec, agent) and not later
+
+
 def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSettings) -> float:
     """Return the speed at which a tracked or observed convoy drives where the road allows it."""
     pace = settings.target_speed_mps
@@ -154,7 +164,7 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
     for mission in spec.missions:
         target = agents.get(mission.target or '')
         hovers = mission.mode is MissionMode.HOVER and mission.duration_s is not None
-        if hovers and target is not None and moves(spec, target):
+        if hovers and target is not None and moves_during(spec, target, mission):
             assert mission.duration_s is not None
             if mission.duration_s.value <= 0.0:
                 continue

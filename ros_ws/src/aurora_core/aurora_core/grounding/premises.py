@@ -15,7 +15,15 @@ from aurora_core.grounding.awaited import awaited_at, is_kept_away, kept_away_m
 from aurora_core.grounding.places import ROADS, MapPlaces, has_point
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.knowledge.limits import Limits
-from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage, UavMission
+from aurora_core.spec.events import least_due_s, sets_off
+from aurora_core.spec.scenario import (
+    DistanceTrigger,
+    GroundAgent,
+    ScenarioSpec,
+    SendMessage,
+    UavMission,
+)
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind
 
 Pose = tuple[float, float, float, float]
 
@@ -24,6 +32,9 @@ _APART_M = 3.0
 # A vehicle gets to a person on the next stretch of its way: so long, in such steps (m).
 _WAY_M = 300.0
 _STEP_M = 4.0
+# So fast somebody may drive until a stated time (m/s); who does one of these does not.
+_DRIVES_MPS = 8.0
+_STAYS = (BehaviorKind.WAIT, BehaviorKind.PARK, BehaviorKind.STOP)
 # Of the range of a link so much is counted on; beyond that of a hidden one it may be hidden.
 _RANGE_SHARE = 0.9
 _HIDDEN = 0.6
@@ -103,7 +114,9 @@ def _route_arc_m(spec: ScenarioSpec, mission: UavMission, site: Site, range_m: f
 
 
 def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> float:
-    """Return how well who is told something by a UAV at a place stands to it, in [0, 1].
+    """Return how well who is told something from a place stands to it, in [0, 1].
+
+    That counts at t = 0 and, of who is told at a stated time, where it may have come to by then.
 
     Args:
         spec: The request.
@@ -116,18 +129,37 @@ def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> 
         action = event.action
         if not isinstance(action, SendMessage):
             continue
-        told = site.seat(action.receiver)
-        first = next((m for m in spec.missions if m.uav == action.sender), None)
-        if told is None or first is None or not has_point(first.target):
+        told, sender = site.seat(action.receiver), _place_of(spec, action.sender)
+        if told is None or sender is None:
             continue
-        x, y, *_ = told.path.position_at(told.arc_m)
-        point_x, point_y = places.itself(str(first.target), site.origin()[:2])
-        away_m = norm2(norm2(x - point_x, y - point_y), first.altitude_m.value)
-        if away_m > _RANGE_SHARE * limits.link_range_sight_m:
-            share = 0.0
-        elif away_m > _RANGE_SHARE * limits.link_range_blocked_m:
-            share = min(share, _HIDDEN)
+        place, height_m = sender
+        point_x, point_y = places.itself(place, site.origin()[:2])
+        goes_m = _DRIVES_MPS * least_due_s(spec.events, event.id)
+        for way_m in {0.0, goes_m if _drives_from_start(spec, told.agent) else 0.0}:
+            arc_m = min(told.arc_m + way_m, told.path.length_m)
+            x, y, *_ = told.path.position_at(arc_m)
+            away_m = norm2(norm2(x - point_x, y - point_y), height_m)
+            if away_m > _RANGE_SHARE * limits.link_range_sight_m:
+                share = 0.0
+            elif away_m > _RANGE_SHARE * limits.link_range_blocked_m:
+                share = min(share, _HIDDEN)
     return share
+
+
+def _place_of(spec: ScenarioSpec, sender: str) -> tuple[str, float] | None:
+    """Return the place at which a sender stays, and its height (m), None where it has none."""
+    first = next((m for m in spec.missions if m.uav == sender), None)
+    if first is not None:
+        return (str(first.target), first.altitude_m.value) if has_point(first.target) else None
+    units = (a for a in spec.agents if a.id == sender and a.type is AgentType.RSU)
+    placed = (p.of for unit in units for p in unit.placements)
+    return next(((str(of), 0.0) for of in placed if has_point(of)), None)
+
+
+def _drives_from_start(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether somebody drives whom no event sets off."""
+    drives = any(b.kind not in _STAYS for b in agent.behaviors)
+    return drives and agent.type is not AgentType.RSU and sets_off(spec.events, agent.id) is None
 
 
 def _can_meet(

@@ -29,6 +29,7 @@ from aurora_core.spec.scenario import (
     MissionDoneTrigger,
     ScenarioSpec,
     SendMessage,
+    SpeedTrigger,
     UavAction,
     UavMission,
     VisibilityTrigger,
@@ -167,8 +168,13 @@ def _yields_within_m(spec: ScenarioSpec, vehicle: str, person: str) -> float:
 
 
 def _told_by(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
-    """Return the UAV that stays at a place and sends a message to an agent without a motion."""
+    """Return the UAV that stays at a place and sends a message to an agent without a motion.
+
+    What makes somebody send something, or fly elsewhere, is one.
+    """
     if moves(spec, agent) or any(m.target == agent.id for m in spec.missions):
+        return None
+    if any(agent.id in bodies_of_cause(e) and _is_of_motion(e) for e in spec.events):
         return None
     staying = {m.uav for m in spec.missions} - {
         m.uav for m in spec.missions if m.mode is not MissionMode.HOVER
@@ -176,6 +182,13 @@ def _told_by(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
     told: list[SendMessage | Link] = [link for link in spec.links if link.rate_hz is not None]
     told += [e.action for e in spec.events if isinstance(e.action, SendMessage)]
     return next((a.sender for a in told if a.receiver == agent.id and a.sender in staying), None)
+
+
+def _is_of_motion(event: Event) -> bool:
+    """Tell whether an event waits for somebody to get far, to a place or to a speed."""
+    trigger = event.trigger
+    far = isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_above'
+    return far or isinstance(trigger, ArrivalTrigger | SpeedTrigger)
 
 
 def group_releases(spec: ScenarioSpec, split: SceneSplit) -> Mapping[str, Release]:

@@ -131,11 +131,23 @@ class RouteFinder:
         return ()
 
     def wandering_route(
-        self, start_edge: str, length_m: float, generator: np.random.Generator
+        self,
+        start_edge: str,
+        length_m: float,
+        generator: np.random.Generator,
+        inside: Callable[[str], bool] = lambda _: True,
     ) -> tuple[str, ...]:
-        """Return a route of at least `length_m` that turns at random."""
+        """Return a route of at least `length_m` that turns at random.
+
+        Args:
+            start_edge: First edge.
+            length_m: Least length.
+            generator: Of the turns.
+            inside: Tells which edges it keeps to wherever it can.
+        """
 
         def choose(options: Sequence[str]) -> str:
+            options = [edge for edge in options if inside(edge)] or options
             liked = [edge for edge in options if not self._is_slow(edge)] or options
             return liked[int(generator.integers(len(liked)))]
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.grounding.pace import encounters, moves
+from aurora_core.grounding.pace import encounters, moves_during
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.settings import GroundingSettings
@@ -76,7 +76,8 @@ class Watcher:
         if isinstance(seat, SeatedPerson):
             walks = any(b.kind is BehaviorKind.WALK for b in seat.agent.behaviors)
             speed_mps = self.settings.persons.walking_mps if walks else 0.0
-        way_m = speed_mps * mission.duration_s.value if moves(self.spec, seat.agent) else 0.0
+        goes = moves_during(self.spec, seat.agent, mission)
+        way_m = speed_mps * mission.duration_s.value if goes else 0.0
         height_m = self.types[seat.agent.type.value].height_m / 2.0
         samples = samples_along(seat.path, seat.arc_m, way_m, self.settings.sample_spacing_m)
         return np.column_stack((samples[:, :2], np.full(len(samples), height_m)))

@@ -11,8 +11,10 @@ import pytest
 
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.places import MapPlaces
+from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
+from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
+from aurora_core.spec.scenario import ScenarioSpec
 
 Agents = Callable[[str], dict[str, GroundedAgent]]
 Maps = Callable[[str], MapModel]
@@ -108,3 +110,76 @@ def test_who_is_to_arrive_on_foot_walks_there_from_a_little_way_off(
     assert dist(here, point) > 15.0
     line = Polyline(walker.route_xy_m)
     assert dist(line.at(line.project(*point)[0])[:2], point) < dist(here, point) - 5.0
+
+
+def test_a_roadside_unit_is_where_a_uav_hears_it(agents: Agents, map_of: Maps) -> None:
+    unit = agents(
+        'A drone hovers above City Hall at 50 m. 20 s after the start a roadside unit sends a '
+        'message to the drone.'
+    )['rsu1']
+    hall = MapPlaces(map_of('downtown')).itself('landmark:City Hall', (0.0, 0.0))
+    assert dist((unit.x_m, unit.y_m), hall) < 100.0
+
+
+def test_who_circulates_stays_in_reach_of_who_tells_it_something(
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    limits: Limits,
+) -> None:
+    prompt = (
+        'A truck is parked at the roadside. A van circulates. A drone hovers over the crosswalk '
+        'at 30 m. At 20 s the drone sends a message to the van.'
+    )
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    hover_point = found.uavs[0].missions[0].hover_point
+    assert hover_point is not None
+    (van,) = (agent for agent in found.agents if agent.id == 'van1')
+    way = Polyline(van.route_xy_m)
+    for along_m in range(0, 200, 20):  # it drives 20 s until then
+        assert dist(way.at(float(along_m))[:2], hover_point[:2]) < limits.link_range_blocked_m
+
+
+def test_who_waits_for_an_event_stands_in_nobodys_way(agents: Agents) -> None:
+    found = agents(
+        'A police car is at Assembly Police Station. A drone tracks a motorcycle at 45 m. When '
+        'the motorcycle is faster than 15 m/s, the police car starts.'
+    )
+    police, rider = found['police1'], found['motorcycle1']
+    assert police.release is ReleaseOn.EVENT
+    ahead = Polyline(rider.route_xy_m).project(police.x_m, police.y_m)
+    assert dist((police.x_m, police.y_m), (rider.x_m, rider.y_m)) > 5.0
+    assert ahead[0] == 0.0 or abs(ahead[1]) > 3.0
+
+
+def test_who_is_to_come_near_a_crossing_drives_straight_to_it(
+    agents: Agents, map_of: Maps
+) -> None:
+    bus = agents(
+        'A drone hovers over the intersection at 45 m for 70 s. When a bus comes within 60 m of '
+        'the intersection, the drone sends a message to my car.'
+    )['bus1']
+    way, near = Polyline(bus.route_xy_m), False
+    place = MapPlaces(map_of('downtown')).itself('intersection', (bus.x_m, bus.y_m))
+    for along_m in range(60, 260, 5):
+        near = near or dist(way.at(float(along_m))[:2], place) < 60.0
+    assert near
+
+
+def test_who_sets_off_after_a_hover_is_seen_from_it(agents: Agents) -> None:
+    engine = agents(
+        'A fire engine is at Foundry Fire Station. A drone hovers over the fire engine at 50 m '
+        'for 25 s. When the drone has finished its mission, the fire engine starts.'
+    )['firetruck1']
+    assert engine.release is ReleaseOn.EVENT
+
+
+def test_who_is_told_once_it_has_got_far_is_not_held(agents: Agents, map_of: Maps) -> None:
+    van = agents(
+        'A drone hovers over Ridge School at 60 m. When a van is more than 180 m away from the '
+        'drone, the drone sends a message to the van.'
+    )['van1']
+    school = MapPlaces(map_of('downtown')).itself('landmark:Ridge School', (0.0, 0.0))
+    assert van.release is ReleaseOn.CAPTURED
+    assert dist((van.x_m, van.y_m), school) < 170.0
+    way = Polyline(van.route_xy_m)
+    assert any(dist(way.at(float(m))[:2], school) > 170.0 for m in range(0, 600, 10))
