@@ -30,8 +30,12 @@ from aurora_core.spec.scenario import (
     SpeedTrigger,
     TimeTrigger,
     UavMission,
+    VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
+
+# A driver who is to see somebody beside a vehicle comes so near at least (m).
+_SEEN_WITHIN_M = 30.0
 
 # An observed convoy covers at most this share of the sensing range during a hover.
 _OBSERVED_SHARE = 0.5
@@ -96,7 +100,11 @@ def encounter_room_m(speed_mps: float | None) -> float:
 
 
 def met_persons(spec: ScenarioSpec) -> tuple[tuple[GroundAgent, str, float], ...]:
-    """Return the persons that something is to come near, who that is, and how near (m)."""
+    """Return the persons that something is to come near, who that is, and how near (m).
+
+    A driver who is to see somebody comes near, too.
+    """
+    drivers = {a.id for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)}
     persons = {a.id: a for a in spec.agents if a.type is AgentType.PEDESTRIAN}
     found = []
     for trigger in (e.trigger for e in spec.events):
@@ -106,6 +114,12 @@ def met_persons(spec: ScenarioSpec) -> tuple[tuple[GroundAgent, str, float], ...
                 whom = _body(spec, other, _TRACKS)
                 if own in persons and whom != own:
                     found.append((persons[own], whom, trigger.value_m.value))
+        elif isinstance(trigger, VisibilityTrigger) and trigger.on == 'visible':
+            # Who stands by another vehicle is seen by a driver who comes along there.
+            person = persons.get(trigger.target)
+            beside = set() if person is None else {p.of for p in person.placements} & drivers
+            if person is not None and beside and trigger.observer in drivers:
+                found.append((person, trigger.observer, _SEEN_WITHIN_M))
     # Two of them are to come as near as the farthest trigger says.
     return tuple(sorted(found, key=lambda one: -one[2]))
 

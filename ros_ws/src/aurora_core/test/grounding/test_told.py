@@ -183,3 +183,13 @@ def test_who_is_told_once_it_has_got_far_is_not_held(agents: Agents, map_of: Map
     assert dist((van.x_m, van.y_m), school) < 170.0
     way = Polyline(van.route_xy_m)
     assert any(dist(way.at(float(m))[:2], school) > 170.0 for m in range(0, 600, 10))
+
+
+def test_a_driver_who_is_to_see_somebody_drives_up_to_that_one(agents: Agents) -> None:
+    found = agents(
+        'A van is parked at the roadside. A pedestrian stands ahead of the van. My car drives at '
+        '30 km/h. When my car sees the pedestrian, it brakes.'
+    )
+    ego, van = found['ego'], found['van1']
+    arc_m, _ = Polyline(ego.route_xy_m).project(van.x_m, van.y_m)
+    assert arc_m > 30.0
