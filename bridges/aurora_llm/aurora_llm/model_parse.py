@@ -45,6 +45,7 @@ def read_with_models(
         attempts=models.attempts,
         wait=lambda seconds: time.sleep(min(seconds, models.most_wait_s)),
         background=background_of(known, request, models),
+        short=[name for name, entry in models.models.items() if entry.short],
     )
     if order[-1] != OFFLINE or not _is_spent(outcome):
         return understood(known, outcome)

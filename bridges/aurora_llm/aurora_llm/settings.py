@@ -26,11 +26,13 @@ class ModelEntry(Document):
         model: litellm's name, `provider/model`.
         api_base: Address of the server, None for the provider's own.
         schema_output: Ask for output that is held to the schema (`schema:` in the file).
+        short: Ask in the short form, for models that lose themselves in a long one.
     """
 
     model: str = Field(min_length=1)
     api_base: str | None = None
     schema_output: bool = Field(default=True, alias='schema')
+    short: bool = False
 
 
 class RetrievalSettings(Amounts):

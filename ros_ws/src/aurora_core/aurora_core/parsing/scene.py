@@ -24,6 +24,7 @@ from aurora_core.spec.scenario import (
 from aurora_core.spec.vocabulary import (
     AgentType,
     ClauseStatus,
+    LinkOcclusion,
     MissionMode,
     Pattern,
     RelativeWind,
@@ -90,6 +91,7 @@ class MissionDraft:
     waypoint_count: Parameter | None = None
     turns: Parameter | None = None
     speed: Parameter | None = None
+    dwell: Parameter | None = None
     over_streets: bool = False
     ends_in_flight: bool = False
     watching: bool = False  # told with `watches`, `sees`
@@ -108,6 +110,8 @@ class LinkDraft:
     latency: Parameter | None = None
     range: Parameter | None = None
     retransmissions: Parameter | None = None
+    interval: Parameter | None = None
+    occlusion: LinkOcclusion = LinkOcclusion.SHORTENS
     outage: tuple[Parameter, Parameter] | None = None
     rate: Parameter | None = None
     span: Span

@@ -84,7 +84,7 @@ def check_clauses(
 
 
 _LISTS = (
-    'agents', 'uavs', 'missions', 'links', 'events', 'conditions', 'counts', 'forbidden',
+    'agents', 'uavs', 'missions', 'links', 'events', 'orders', 'conditions', 'counts', 'forbidden',
 )  # fmt: skip
 
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.llm.check import judge
@@ -34,6 +34,7 @@ def parse_with_models(
     attempts: int,
     wait: Callable[[float], None],
     background: Background | None = None,
+    short: Collection[str] = (),
 ) -> ParseOutcome:
     """Read a prompt with language models.
 
@@ -47,6 +48,7 @@ def parse_with_models(
         attempts: Most calls to one model.
         wait: Called with the seconds that a server asks to be left alone.
         background: What the models are shown beside the prompt; its scores go into the outcome.
+        short: Names of the models that are asked in the short form.
 
     Returns:
         The first outcome that passes every check, else a question that says why there is none;
@@ -59,7 +61,7 @@ def parse_with_models(
     facts = PromptFacts(prompt, context)
     calls: list[ModelCall] = []
     for model in models:
-        request = first_request(facts, background)
+        request = first_request(facts, background, short=model.name in short)
         for attempt in range(1, attempts + 1):
             answer = _limited(model.complete(request))
             if isinstance(answer, ModelFailure):

@@ -8,12 +8,26 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
+from aurora_core.parsing.llm import operands
 from aurora_core.parsing.llm.parts import Parts
 from aurora_core.parsing.llm.places import is_place
-from aurora_core.parsing.llm.reading import ConditionReading, EventReading
+from aurora_core.parsing.llm.reading import (
+    ActionReading,
+    ConditionReading,
+    EventReading,
+    OrderReading,
+    TriggerReading,
+)
 from aurora_core.parsing.scene import EventDraft, LinkDraft
-from aurora_core.spec.parameter import Bound, Span, Unit
-from aurora_core.spec.scenario import EventAction, SendMessage, StatedCondition, Trigger
+from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
+from aurora_core.spec.requirements import STATED_QUANTITIES
+from aurora_core.spec.scenario import (
+    EventAction,
+    Order,
+    SendMessage,
+    StatedCondition,
+    Trigger,
+)
 
 # What `subject`, `other` and `value` are called, and the line in `defaults.yaml` of the value.
 _TRIGGERS: dict[str, tuple[str, str, str, str]] = {
@@ -50,11 +64,13 @@ def add_event(said: EventReading, parts: Parts) -> None:
         ValueError: A field is missing, or one is there that this cause or effect does not have.
     """
     span = parts.span(said.quote, said.id)
-    action = _action(said, parts)
+    if said.trigger is None and said.action is None:
+        parts.complaints.append(f'{said.id}: an event has a trigger, an action or both')
+    action = None if said.action is None else _action(said.id, said.action, parts)
     parts.scene.events.append(
         EventDraft(
             id=parts.ref(said.id),
-            trigger=_trigger(said, parts),
+            trigger=None if said.trigger is None else _trigger(said.id, said.trigger, parts),
             action=action,
             delay=parts.number('delay', said.delay_s, f'{said.id}.delay_s'),
             span=span,
@@ -66,11 +82,10 @@ def add_event(said: EventReading, parts: Parts) -> None:
         _link_for(action, span, parts)
 
 
-def _trigger(said: EventReading, parts: Parts) -> Trigger:
-    given = said.trigger
+def _trigger(name: str, given: TriggerReading, parts: Parts) -> Trigger:
     subject, other, value, parameter = _TRIGGERS[given.on]
     fields: dict[str, Any] = {'on': given.on}
-    where = f'{said.id}.trigger'
+    where = f'{name}.trigger'
     if given.subject is not None and subject:
         parts.actor(given.subject, f'{where}.subject')
     _put(fields, subject, parts.ref_or_none(given.subject), f'{where}.subject')
@@ -80,9 +95,8 @@ def _trigger(said: EventReading, parts: Parts) -> Trigger:
     return _TRIGGER.validate_python(fields)
 
 
-def _action(said: EventReading, parts: Parts) -> EventAction:
-    given = said.action
-    where = f'{said.id}.action'
+def _action(name: str, given: ActionReading, parts: Parts) -> EventAction:
+    where = f'{name}.action'
     message, flies = given.do == 'send_message', given.do in _UAV_ACTIONS
     parts.actor(given.subject, f'{where}.subject', flies=None if message else flies)
     if given.receiver is not None:
@@ -95,8 +109,8 @@ def _action(said: EventReading, parts: Parts) -> EventAction:
     receiver = parts.ref_or_none(given.receiver)
     _put(fields, 'receiver' if message else '', receiver, f'{where}.receiver')
     _put(fields, 'mission' if flies else '', mission, f'{where}.mission')
-    name = 'altitude' if flies else 'ground_speed'
-    value = parts.number(name, given.value, f'{where}.value')
+    parameter = 'altitude' if flies else 'ground_speed'
+    value = parts.number(parameter, given.value, f'{where}.value')
     _put(fields, '' if message else 'altitude_m' if flies else 'value_mps', value, where)
     return _ACTION.validate_python(fields)
 
@@ -119,6 +133,27 @@ def _link_for(message: SendMessage, span: Span, parts: Parts) -> None:
         )
 
 
+def add_order(said: OrderReading, parts: Parts) -> None:
+    """Add what comes before what."""
+    known = {e.id for e in parts.scene.events} | {m.id for m in parts.scene.missions}
+    ends = parts.ref(said.first), parts.ref(said.then)
+    for given, end in zip((said.first, said.then), ends, strict=True):
+        if end not in known:
+            parts.complaints.append(f'{said.id}: {given!r} is no event or mission of the answer')
+    if ends[0] == ends[1]:
+        parts.complaints.append(f'{said.id}: {said.first!r} cannot come before itself')
+        return
+    parts.scene.orders.append(
+        Order(
+            id=parts.ref(said.id),
+            first=ends[0],
+            then=ends[1],
+            within_s=parts.number('delay', said.within_s, f'{said.id}.within_s'),
+            span=parts.span(said.quote, said.id),
+        )
+    )
+
+
 def add_condition(said: ConditionReading, parts: Parts) -> None:
     """Add a condition that the prompt states."""
     where = said.id
@@ -127,12 +162,12 @@ def add_condition(said: ConditionReading, parts: Parts) -> None:
             parts.complaints.append(f'{where}.of: {one!r} is not in the answer')
     if len(set(said.of)) < len(said.of):
         parts.complaints.append(f'{where}.of: the same one twice')
-    name = _CONDITION_VALUES.get(said.value.unit)
-    if name is None:
-        unit = said.value.unit.value
-        parts.complaints.append(f'{where}.value: a condition has no unit {unit!r}')
+    wrong = operands.objection(said.quantity, [_kind(one, parts) for one in said.of])
+    if wrong is not None:
+        parts.complaints.append(f'{where}: {wrong}, found [{", ".join(said.of)}]')
+    value = _value(said, parts)
+    if value is None:
         return
-    value = parts.numbers.parameter(name, said.value, f'{where}.value')
     opposite = {Bound.AT_LEAST: ('<', '<='), Bound.AT_MOST: ('>', '>=')}.get(value.bound, ())
     if said.op in opposite:
         parts.complaints.append(f'{where}.op: the prompt says {value.bound.value}, not {said.op}')
@@ -141,7 +176,7 @@ def add_condition(said: ConditionReading, parts: Parts) -> None:
             id=parts.ref(said.id),
             quantity=said.quantity,
             of=tuple(parts.ref(one) for one in said.of),
-            op=said.op,
+            op=said.op or '>=',
             value=value,
             hold_s=parts.number('condition_time', said.hold_s, f'{where}.hold_s'),
             by_s=parts.number('condition_time', said.by_s, f'{where}.by_s'),
@@ -149,3 +184,50 @@ def add_condition(said: ConditionReading, parts: Parts) -> None:
             span=parts.span(said.quote, where),
         )
     )
+
+
+def _value(said: ConditionReading, parts: Parts) -> Parameter | None:
+    """Return what a quantity is compared with; what is done or not is to be done."""
+    done = operands.is_done(said.quantity)
+    if said.value is None or (done and said.value.provenance == 'inferred'):
+        if not done or (said.value is not None and said.value.value not in (0.0, 1.0)):
+            parts.complaints.append(f'{said.id}: {said.quantity} needs op and a value of its own')
+            return None
+        denied = said.value is not None and said.value.value == 0.0
+        if denied and said.op not in ('==', '<='):
+            parts.complaints.append(f'{said.id}.op: a value of 0 goes with ==')
+        return _yes_or_no(yes=not denied)
+    if said.op is None:
+        parts.complaints.append(f'{said.id}: a value needs an op')
+    name = _CONDITION_VALUES.get(said.value.unit)
+    unit = STATED_QUANTITIES[said.quantity]
+    if name is None or said.value.unit is not unit:
+        parts.complaints.append(
+            f'{said.id}.value: {said.quantity} is in {unit.value!r}, found '
+            f'{said.value.unit.value!r}'
+        )
+        return None
+    if said.quantity == 'waypoints_visited':
+        name = 'waypoint_count'
+    return parts.numbers.parameter(name, said.value, f'{said.id}.value')
+
+
+def _yes_or_no(*, yes: bool) -> Parameter:
+    return Parameter(
+        value=1.0 if yes else 0.0,
+        unit=Unit.ONE,
+        low=0.0,
+        high=1.0,
+        provenance=Provenance.INFERRED,
+    )
+
+
+def _kind(given: str, parts: Parts) -> str | None:
+    """Return what an operand is, None where it is nothing that a quantity is of."""
+    if is_place(given):
+        return operands.PLACE
+    entity = parts.scene.by_id(parts.ref(given))
+    if entity is not None:
+        return operands.UAV if entity.is_uav else operands.BODY
+    events = {event.id for event in parts.scene.events}
+    return operands.EVENT if parts.ref(given) in events else None

@@ -11,7 +11,7 @@ from aurora_core.parsing.scene import LinkDraft, MissionDraft
 from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.reference import is_place
-from aurora_core.spec.vocabulary import MissionMode, Pattern, Side
+from aurora_core.spec.vocabulary import LinkOcclusion, MissionMode, Pattern, Side
 
 
 def add_mission(said: MissionReading, parts: Parts) -> None:
@@ -47,6 +47,7 @@ def add_mission(said: MissionReading, parts: Parts) -> None:
             ),
             turns=_turns(said, parts),
             speed=parts.number('uav_speed', said.speed_mps, f'{where}.speed_mps'),
+            dwell=parts.number('condition_time', said.dwell_s, f'{where}.dwell_s'),
             over_streets=said.over_streets,
             ends_in_flight=said.ends_in_flight,
             span=parts.span(said.quote, where),
@@ -115,6 +116,10 @@ def add_link(said: LinkReading, parts: Parts) -> None:
             retransmissions=parts.number(
                 'link_retransmissions', said.retransmissions, f'{where}.retransmissions'
             ),
+            interval=parts.number(
+                'link_retransmission_interval', said.retry_interval_s, f'{where}.retry_interval_s'
+            ),
+            occlusion=said.occlusion or LinkOcclusion.SHORTENS,
             outage=_outage(said, parts),
             rate=parts.number('link_rate', said.rate_hz, f'{where}.rate_hz'),
             span=parts.span(said.quote, where),

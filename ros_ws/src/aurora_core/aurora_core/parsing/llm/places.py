@@ -41,7 +41,9 @@ def check_world(
 ) -> None:
     """Object to weather, time and traffic other than those that the prompt states."""
     for kind in ('weather', 'time_of_day', 'traffic_density'):
-        atoms = [a for a in facts.world_words(kind) if not _is_unread(a, unread)]
+        words = [a for a in facts.world_words(kind) if not _is_unread(a, unread)]
+        denied = {getattr(f, kind) for f in reading.forbidden}
+        atoms = [a for a in words if not (facts.is_denied(a) and a.key.split(':', 1)[1] in denied)]
         stated = sorted({a.key.split(':', 1)[1] for a in atoms})
         said = getattr(reading.world, kind)
         found = said.value if said is not None else 'null'
@@ -71,6 +73,8 @@ def _references(reading: Reading) -> Iterator[str]:
         yield from (b.target for b in agent.behaviors if b.target is not None)
     for mission in reading.missions:
         yield from (name for name in (mission.target, mission.start) if name is not None)
-    yield from (e.trigger.other for e in reading.events if e.trigger.other is not None)
+    causes = [event.trigger for event in reading.events if event.trigger is not None]
+    yield from (cause.other for cause in causes if cause.other is not None)
+    yield from (f.target for f in reading.forbidden if f.target is not None)
     for condition in reading.conditions:
         yield from condition.of

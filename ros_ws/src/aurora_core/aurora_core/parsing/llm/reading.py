@@ -18,6 +18,7 @@ from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
     ClauseStatus,
+    LinkOcclusion,
     MissionMode,
     Pattern,
     Relation,
@@ -109,6 +110,7 @@ class MissionReading(Document):
     waypoint_count: Number | None = None
     turns: Number | None = None
     speed_mps: Number | None = None
+    dwell_s: Number | None = None
     over_streets: bool = False
     ends_in_flight: bool = False
     quote: Quote
@@ -122,6 +124,8 @@ class LinkReading(Document):
     latency_s: Number | None = None
     range_m: Number | None = None
     retransmissions: Number | None = None
+    retry_interval_s: Number | None = None
+    occlusion: LinkOcclusion | None = None
     outage_from_s: Number | None = None
     outage_to_s: Number | None = None
     rate_hz: Number | None = None
@@ -129,7 +133,7 @@ class LinkReading(Document):
 
 
 class TriggerReading(Document):
-    """A cause; which fields it needs depends on `on` (see `triggers`)."""
+    """A cause; which fields it needs depends on `on` (see `events._TRIGGERS`)."""
 
     on: Literal[
         'distance_below',
@@ -176,15 +180,32 @@ class ActionReading(Document):
 
 
 class EventReading(Document):
+    """Without a trigger its cause is left open, without an action it is a milestone."""
+
     id: Name
-    trigger: TriggerReading
-    action: ActionReading
+    trigger: TriggerReading | None = None
+    action: ActionReading | None = None
     delay_s: Number | None = None
     quote: Quote
 
 
+class OrderReading(Document):
+    """One event or mission comes before another one."""
+
+    id: Name
+    first: Name
+    then: Name
+    within_s: Number | None = None
+    quote: Quote
+
+
 class ConditionReading(Document):
-    """Something that the prompt demands: `stays within 20 m of the bus`."""
+    """Something that the prompt demands: `stays within 20 m of the bus`.
+
+    Attributes:
+        of: Whom or what it is about, in the order of `operands`.
+        op: None, as `value`, where the quantity is done or not (`landed`): then it is to be done.
+    """
 
     id: Name
     quantity: Literal[
@@ -200,12 +221,16 @@ class ConditionReading(Document):
         'event_time',
         'delivery_latency',
         'delivery_ratio',
+        'delivered',
         'clearance',
         'battery',
+        'landed',
+        'mission_completed',
+        'waypoints_visited',
     ]
     of: tuple[Reference, ...]
-    op: Literal['<=', '<', '>=', '>', '==']
-    value: Number
+    op: Literal['<=', '<', '>=', '>', '=='] | None = None
+    value: Number | None = None
     hold_s: Number | None = None
     by_s: Number | None = None
     fraction: Number | None = None
@@ -222,12 +247,25 @@ class CountReading(Document):
 
 
 class ForbiddenReading(Document):
-    """Something that a ground agent must never do: `the van must not change lanes`."""
+    """Something that must not be so; with the fields of exactly one kind.
+
+    Attributes:
+        agent: Ground agent that must never do `kind` (to `target`).
+        type: No agent of this type, or no UAV, is there at all.
+        sender: Who must send no message to `receiver`.
+        weather: Not in this weather.
+    """
 
     id: Name
-    agent: Name
-    kind: BehaviorKind
+    agent: Name | None = None
+    kind: BehaviorKind | None = None
     target: Reference | None = None
+    type: AgentType | Literal['uav'] | None = None
+    sender: Name | None = None
+    receiver: Name | None = None
+    weather: Weather | None = None
+    time_of_day: TimeOfDay | None = None
+    traffic_density: TrafficDensity | None = None
     quote: Quote
 
 
@@ -256,6 +294,7 @@ class Reading(Document):
     missions: tuple[MissionReading, ...] = ()
     links: tuple[LinkReading, ...] = ()
     events: tuple[EventReading, ...] = ()
+    orders: tuple[OrderReading, ...] = ()
     conditions: tuple[ConditionReading, ...] = ()
     counts: tuple[CountReading, ...] = ()
     forbidden: tuple[ForbiddenReading, ...] = ()

@@ -7,19 +7,25 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import Any
+
+from pydantic import JsonValue
 
 from aurora_core.document import Document
 from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.llm.facts import PromptFacts
+from aurora_core.parsing.llm.notation import form_text, schema_text
+from aurora_core.parsing.llm.operands import table
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.parsing.tokens import TokenKind, tokenize
 from aurora_core.ports.language_model import Message, ModelRequest
 from aurora_core.retrieval.background import Background
-from aurora_core.spec.vocabulary import AgentType, Place
+from aurora_core.spec.vocabulary import Place
 
 # A large map has more named places than a prompt could mean.
 _MOST_LANDMARKS = 40
+_FEW_LANDMARKS = 15
+# Landmarks stand with the places; what was measured says nothing about words.
+_OF_THE_MAP = ('active', 'all', 'description', 'no_fly_zones', 'streets')
 _EXAMPLES = 2
 
 
@@ -37,30 +43,19 @@ def examples() -> tuple[Example, ...]:
     return tuple(Example.model_validate_json(json.dumps(row)) for row in rows)
 
 
-@lru_cache(maxsize=1)
-def schema_text() -> str:
-    """Return the JSON Schema of an answer, without the titles that repeat its names."""
-    return json.dumps(_untitled(Reading.model_json_schema()), sort_keys=True)
-
-
-def _untitled(schema: Any) -> Any:
-    if isinstance(schema, dict):
-        return {
-            name: _untitled(value)
-            for name, value in schema.items()
-            if name not in ('title', 'description')
-        }
-    return [_untitled(one) for one in schema] if isinstance(schema, list) else schema
-
-
-def first_request(facts: PromptFacts, background: Background | None = None) -> ModelRequest:
+def first_request(
+    facts: PromptFacts, background: Background | None = None, *, short: bool = False
+) -> ModelRequest:
     """Return the first turn for a prompt.
 
     Args:
         facts: The prompt and its map.
         background: What is shown beside them.
+        short: Fewer rules, one example and no background.
     """
-    told = (Message(role='system', content=_system(facts, background)), *_shown(facts.prompt))
+    system = _short(facts) if short else _system(facts, background)
+    examples_ = _shown(facts.prompt, 1 if short else _EXAMPLES)
+    told = (Message(role='system', content=system), *examples_)
     return ModelRequest(
         messages=(*told, Message(role='user', content=_as_data(facts.prompt))),
         schema_text=schema_text(),
@@ -83,36 +78,62 @@ def with_feedback(request: ModelRequest, reply: str, complaints: Sequence[str]) 
 
 def _system(facts: PromptFacts, background: Background | None) -> str:
     data = read_data('llm/instructions.yaml')
-    landmarks = _nearest(facts.context.landmark_names, facts.prompt, _MOST_LANDMARKS)
-    known = {
-        'map': facts.context.map_name,
-        'agent_types': [t.value for t in AgentType],
-        'places': [p.value for p in Place] + [f'landmark:{name}' for name in landmarks],
-    }
     return '\n'.join(
         (
-            data['rules'],
-            'Triggers and effects.',
-            data['triggers'],
-            'Known here: ' + json.dumps(known),
-            *(() if background is None else _told(background, data['background'])),
-            'Schema: ' + schema_text(),
+            data['rules'].rstrip(),
+            data['triggers'].rstrip(),
+            data['operands'].rstrip() + ' ' + table(),
+            _known(facts, _MOST_LANDMARKS),
+            *(() if background is None else _told(background, facts.prompt, data['background'])),
+            _form(),
         )
     )
 
 
-def _told(background: Background, rules: str) -> tuple[str, ...]:
+def _short(facts: PromptFacts) -> str:
+    data = read_data('llm/instructions.yaml')
+    rules = data['short'].rstrip()
+    operands = data['operands'].rstrip() + ' ' + table()
+    return '\n'.join((rules, operands, _known(facts, _FEW_LANDMARKS), _form()))
+
+
+def _known(facts: PromptFacts, most: int) -> str:
+    landmarks = _nearest(facts.context.landmark_names, facts.prompt, most)
+    places = [p.value for p in Place] + [f'landmark:{name}' for name in landmarks]
+    return 'Known here: ' + json.dumps({'map': facts.context.map_name, 'places': places})
+
+
+def _form() -> str:
+    return 'Form (? may be left out):\n' + form_text()
+
+
+def _told(background: Background, prompt: str, rules: str) -> tuple[str, ...]:
     return (
         rules.rstrip(),
-        'Registries: ' + background.registries_text(),
+        'Registries: ' + json.dumps(_registries(background, prompt), ensure_ascii=False),
         'Retrieved: ' + background.selected_text(),
     )
 
 
-def _shown(prompt: str) -> tuple[Message, ...]:
+def _registries(background: Background, prompt: str) -> dict[str, JsonValue]:
+    """Return what of the registries helps to read: the form holds the vocabulary."""
+    found: dict[str, JsonValue] = {}
+    for record in background.registries:
+        if record.id == 'maps':
+            told = {name: value for name, value in record.data.items() if name in _OF_THE_MAP}
+            streets = told.get('streets')
+            if isinstance(streets, list):
+                told['streets'] = [*_nearest([str(s) for s in streets], prompt, _MOST_LANDMARKS)]
+            found[record.id] = told
+        elif record.id != 'vocabulary':
+            found[record.id] = record.data
+    return found
+
+
+def _shown(prompt: str, most: int) -> tuple[Message, ...]:
     """Return the examples that are most like the prompt, the closest last."""
     by_prompt = {example.prompt: example for example in examples()}
-    chosen = _nearest(tuple(by_prompt), prompt, _EXAMPLES)
+    chosen = _nearest(tuple(by_prompt), prompt, most)
     turns: list[Message] = []
     for text in reversed(chosen):
         answer = by_prompt[text].answer.model_dump_json(exclude_defaults=True)

@@ -13,7 +13,7 @@ from aurora_core.parsing.constructions.places import (
     says_throughout,
 )
 from aurora_core.parsing.llm.actors import Anchors, is_ego
-from aurora_core.parsing.llm.events import add_condition, add_event
+from aurora_core.parsing.llm.events import add_condition, add_event, add_order
 from aurora_core.parsing.llm.flights import add_link, add_mission
 from aurora_core.parsing.llm.parts import Parts
 from aurora_core.parsing.llm.places import is_place
@@ -29,7 +29,13 @@ from aurora_core.parsing.llm.reading import (
 from aurora_core.parsing.scene import Entity
 from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.prohibitions import ForbiddenBehavior
+from aurora_core.spec.prohibitions import (
+    ForbiddenAgent,
+    ForbiddenBehavior,
+    ForbiddenLink,
+    ForbiddenWorld,
+    Prohibition,
+)
 from aurora_core.spec.scenario import Behavior, Placement, SceneCount
 from aurora_core.spec.vocabulary import (
     AgentType,
@@ -61,6 +67,7 @@ def build_scene(reading: Reading, parts: Parts, anchors: Anchors) -> None:
     parts.name_all('m', [m.id for m in reading.missions])
     parts.name_all('link', [link.id for link in reading.links])
     parts.name_all('e', [e.id for e in reading.events])
+    parts.name_all('order', [o.id for o in reading.orders])
     parts.name_all('c', [c.id for c in reading.conditions])
     parts.name_all('count', [c.id for c in reading.counts])
     parts.name_all('no', [f.id for f in reading.forbidden])
@@ -72,6 +79,8 @@ def build_scene(reading: Reading, parts: Parts, anchors: Anchors) -> None:
         add_link(link, parts)
     for event in reading.events:
         add_event(event, parts)
+    for order in reading.orders:
+        add_order(order, parts)
     for condition in reading.conditions:
         add_condition(condition, parts)
     for count in reading.counts:
@@ -90,17 +99,58 @@ def _add_count(count: CountReading, parts: Parts) -> None:
 
 
 def _add_forbidden(said: ForbiddenReading, parts: Parts) -> None:
-    agent = parts.actor(said.agent, f'{said.id}.agent', flies=False)
-    if agent is not None:
-        made = ForbiddenBehavior(
-            forbids='behavior',
-            id=parts.ref(said.id),
-            agent=agent.id,
-            kind=said.kind,
-            target=parts.ref_or_none(said.target),
-            span=parts.span(said.quote, said.id),
+    world = (said.weather, said.time_of_day, said.traffic_density)
+    kinds = [
+        said.agent is not None or said.kind is not None or said.target is not None,
+        said.type is not None,
+        said.sender is not None or said.receiver is not None,
+        *(one is not None for one in world),
+    ]
+    if sum(kinds) != 1:
+        parts.complaints.append(
+            f'{said.id}: expected agent with kind, type, sender with receiver, or one of weather, '
+            'time_of_day and traffic_density'
         )
+        return
+    made = _prohibition(said, parts)
+    if made is not None:
         parts.scene.prohibitions.append(made)
+
+
+def _prohibition(said: ForbiddenReading, parts: Parts) -> Prohibition | None:
+    name, span = parts.ref(said.id), parts.span(said.quote, said.id)
+    if said.type is not None:
+        return ForbiddenAgent(forbids='agent', id=name, type=said.type, span=span)
+    if any((said.weather, said.time_of_day, said.traffic_density)):
+        return ForbiddenWorld(
+            forbids='world',
+            id=name,
+            weather=said.weather,
+            time_of_day=said.time_of_day,
+            traffic_density=said.traffic_density,
+            span=span,
+        )
+    if said.sender is not None or said.receiver is not None:
+        sender = parts.actor(said.sender or '', f'{said.id}.sender')
+        receiver = parts.actor(said.receiver or '', f'{said.id}.receiver')
+        if sender is None or receiver is None:
+            return None
+        return ForbiddenLink(
+            forbids='link', id=name, sender=sender.id, receiver=receiver.id, span=span
+        )
+    agent = parts.actor(said.agent or '', f'{said.id}.agent', flies=False)
+    if said.kind is None:
+        parts.complaints.append(f'{said.id}.kind: what the agent must not do is missing')
+    if agent is None or said.kind is None:
+        return None
+    return ForbiddenBehavior(
+        forbids='behavior',
+        id=name,
+        agent=agent.id,
+        kind=said.kind,
+        target=parts.ref_or_none(said.target),
+        span=span,
+    )
 
 
 def _add_world(said: WorldReading, parts: Parts) -> None:

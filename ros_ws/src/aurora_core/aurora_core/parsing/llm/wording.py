@@ -122,7 +122,8 @@ class Wording:
 
     def _lost_verbs(self) -> None:
         done = {b.kind.value for agent in self._reading.agents for b in agent.behaviors}
-        done |= {event.action.do for event in self._reading.events}
+        done |= {e.action.do for e in self._reading.events if e.action is not None}
+        done |= {f.kind.value for f in self._reading.forbidden if f.kind is not None}
         modes = {mission.mode for mission in self._reading.missions}
         for atom in self._read:
             if atom.kind is not AtomKind.VERB or self._is_denied(atom):
