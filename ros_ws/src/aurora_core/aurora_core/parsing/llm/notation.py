@@ -59,9 +59,7 @@ def _type(schema: dict[str, Any]) -> str:
     if 'properties' in schema:
         needed = schema.get('required', [])
         fields = schema['properties'].items()
-        told = (
-            f'{name}{"" if name in needed else "?"}: {_type(field)}' for name, field in fields
-        )
+        told = (f'{name}{"" if name in needed else "?"}: {_type(field)}' for name, field in fields)
         return '{' + ', '.join(told) + '}'
     if schema['type'] == 'array':
         return f'[{_type(schema["items"])}]'
