@@ -61,7 +61,9 @@ def set_aside(clauses: Sequence[ClauseDraft], prompt: str) -> list[Span]:
             and clause.span.end <= c.span.end
             for c in clauses
         )
-        places = frozenset(('', *[BESIDE] * beside, *[LABEL] * _is_label(clause.span, prompt)))
+        places = frozenset(
+            ('', *[BESIDE] * beside, *[LABEL] * stands_as_label(clause.span, prompt))
+        )
         reason = reason_of(prompt[clause.span.start : clause.span.end], places)
         if reason is not None:
             clause.status = ClauseStatus.NO_REQUIREMENT
@@ -70,7 +72,7 @@ def set_aside(clauses: Sequence[ClauseDraft], prompt: str) -> list[Span]:
     return aside
 
 
-def _is_label(span: Span, prompt: str) -> bool:
+def stands_as_label(span: Span, prompt: str) -> bool:
     """Return whether a colon follows, or nothing else stands in the line."""
     ahead, behind = prompt[: span.start].rstrip(' '), prompt[span.end :].lstrip(' ')
     alone = (not ahead or ahead.endswith('\n')) and (not behind or behind.startswith('\n'))

@@ -5,8 +5,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import takewhile
 
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
+from aurora_core.parsing.llm.asides import speaks
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import AgentReading, MissingReading, Reading, UavReading
 from aurora_core.parsing.resolver import MOST_AGENTS
@@ -14,6 +16,20 @@ from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType
 
 _FLYING_VERBS = frozenset({'hover', 'track', 'orbit', 'navigate', 'fly', 'observe'})
+# What somebody of a type may be called as well, once named: `a police van … the van`.
+_ALSO_CALLED = {
+    AgentType.AMBULANCE: ('car', 'truck', 'van'),
+    AgentType.BICYCLE: ('motorcycle',),  # `the bike`
+    AgentType.FIRETRUCK: ('truck',),
+    AgentType.MOTORCYCLE: ('bicycle',),
+    AgentType.POLICE: ('car', 'motorcycle', 'van'),
+    AgentType.TRUCK: ('van',),
+    AgentType.VAN: ('car', 'truck'),
+}
+_ARTICLES = frozenset({'a', 'an', 'the'})
+_ON_FOOT = (AgentType.PEDESTRIAN, AgentType.RSU)
+# What may stand between the two of `a white and a black van`.
+_JOINED = (AtomKind.FILL, AtomKind.COMMA, AtomKind.CONJUNCTION)
 _UNAVAILABLE = (NounKind.UNSUPPORTED, NounKind.UNKNOWN, NounKind.MISSING_LANDMARK)
 
 
@@ -53,6 +69,7 @@ class Anchors:
             )
             return
         named = [a for a in self._facts.actors if any(overlap(a, s) for s in spans)]
+        named = named or self._shared_heads(spans)
         named = [a for a in named if not self._facts.is_denied(a)]
         fitting = [a for a in named if a.noun is not None and _names(a.noun, actor)]
         if not fitting and isinstance(actor, UavReading):
@@ -66,10 +83,10 @@ class Anchors:
             return
         # `car` may stand for `car` before it stands for `my car`.
         fitting.sort(key=lambda a: all((a.start, a.end) != (s.start, s.end) for s in spans))
-        free = [a for a in fitting if self._taken(a) < _room(a)]
+        free = [a for a in fitting if self._taken(a) < self._room(a)]
         if not free:
             self._complaints.append(
-                f'{actor.id}: {actor.quote!r} names {_room(fitting[0])}, and there are more'
+                f'{actor.id}: {actor.quote!r} names {self._room(fitting[0])}, and there are more'
             )
             return
         if self._is_again(free[0], actor):
@@ -87,6 +104,26 @@ class Anchors:
             return seen
         verbs = [a for a in self._facts.atoms if a.kind is AtomKind.VERB]
         return seen + [a for a in verbs if a.key in _FLYING_VERBS]
+
+    def _shared_heads(self, spans: Sequence[Span]) -> list[Atom]:
+        """`a white | and a black van`: the noun is that of the one told last."""
+        behind = [a for a in self._facts.atoms if a.start >= spans[0].end]
+        joined = takewhile(lambda a: a.kind in _JOINED, behind)
+        rest = behind[len(list(joined)) :]
+        return [a for a in rest[:1] if a in self._facts.actors and self._told_before(a)]
+
+    def _told_before(self, atom: Atom) -> int:
+        """Return how many are told by words that share the noun of another one."""
+        before = [a for a in self._facts.atoms if a.end <= atom.start]
+        joined = list(takewhile(lambda a: a.kind in _JOINED, reversed(before)))
+        words = [a.kind is AtomKind.FILL and a.key not in _ARTICLES for a in joined]
+        return sum(words) if any(a.kind is AtomKind.CONJUNCTION for a in joined[:2]) else 0
+
+    def _room(self, atom: Atom) -> int:
+        if atom.noun is None:
+            return 1
+        count = atom.noun.count or (MOST_AGENTS if atom.noun.plural else 1)
+        return count + self._told_before(atom)
 
     def _taken(self, atom: Atom) -> int:
         return sum(known is atom for known in self._atoms.values())
@@ -125,10 +162,11 @@ class Anchors:
                 wanted = 'missing' if noun.kind is NounKind.UNSUPPORTED else 'a question'
                 self._complaints.append(f'{words!r} is no agent type: expected {wanted}')
             return
-        if self._facts.is_denied(atom):
+        if self._facts.is_denied(atom) or speaks(atom):
             return
-        fitting = [actor for actor in actors if _names(noun, actor)]
+        fitting = [actor for actor in actors if _may_mean(noun, actor)]
         stated = noun.count > 1 and noun.determiner is Determiner.BARE
+        stated = stated and len(fitting) != noun.count  # `two vehicles, a car and a van`
         if not fitting:
             self._complaints.append(f'{words!r} names an actor, and the answer has none for it')
         elif stated and noun.count <= MOST_AGENTS and self._taken(atom) != noun.count:
@@ -164,6 +202,16 @@ def is_ego(noun: NounPhrase) -> bool:
     return vehicle and (noun.determiner is Determiner.MY or 'ego' in noun.labels)
 
 
+def _may_mean(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
+    """Tell whether a mention may mean an actor: by its type, or once named by a wider word."""
+    if _names(noun, actor) or isinstance(actor, UavReading):
+        return _names(noun, actor)
+    if noun.kind is NounKind.VEHICLE:
+        return actor.type not in _ON_FOOT
+    again = noun.determiner in (Determiner.DEFINITE, Determiner.MY)
+    return again and noun.key in _ALSO_CALLED.get(actor.type, ())
+
+
 def _names(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
     if isinstance(actor, UavReading):
         return noun.kind is NounKind.UAV
@@ -171,9 +219,3 @@ def _names(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
         return noun.key == actor.type.value
     # Nobody says what kind of vehicle it is: then it is a car.
     return noun.kind in (NounKind.EGO, NounKind.VEHICLE) and actor.type is AgentType.CAR
-
-
-def _room(atom: Atom) -> int:
-    if atom.noun is None:
-        return 1
-    return atom.noun.count or (MOST_AGENTS if atom.noun.plural else 1)

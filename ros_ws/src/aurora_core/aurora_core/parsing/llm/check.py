@@ -15,6 +15,7 @@ from aurora_core.parsing.atoms import Atom, NounKind
 from aurora_core.parsing.doubts.table import doubtful
 from aurora_core.parsing.llm.actors import Anchors, check_missing
 from aurora_core.parsing.llm.clauses import (
+    aside_spans,
     check_clauses,
     clause_spans,
     read_by_the_model_alone,
@@ -76,12 +77,14 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
     if missing:
         return None if complaints else _refused(reading, missing, facts)
     anchors = Anchors(facts, complaints)
-    anchors.read(reading, unread)
-    check_places(reading, facts, unread, complaints)
-    check_world(reading, facts, unread, complaints)
+    # Words that ask for nothing have no part in the answer either.
+    free = (*unread, *aside_spans(reading.clauses, spans, facts))
+    anchors.read(reading, free)
+    check_places(reading, facts, free, complaints)
+    check_world(reading, facts, free, complaints)
     check_clauses(reading, spans, facts, complaints)
-    Wording(reading, facts, unread, complaints).check()
-    numbers = StatedNumbers(facts, unread, complaints)
+    Wording(reading, facts, free, complaints).check()
+    numbers = StatedNumbers(facts, free, complaints)
     parts = Parts(facts, numbers, complaints)
     try:
         build_scene(reading, parts, anchors)

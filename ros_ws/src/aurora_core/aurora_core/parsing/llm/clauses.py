@@ -6,8 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aurora_core.parsing.atoms import AtomKind, needs_nothing
+from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.constructions.messages import TELLING
+from aurora_core.parsing.llm.asides import denies, may_ask
 from aurora_core.parsing.llm.facts import PromptFacts, overlap
 from aurora_core.parsing.llm.reading import ClauseReading, Reading
 from aurora_core.spec.parameter import Span
@@ -26,6 +27,8 @@ _JOINTS = (
     AtomKind.RELATIVE,
     AtomKind.PREPOSITION,
 )
+# What can say that something is not so.
+_CAN_DENY = frozenset({'conditions', 'counts', 'forbidden', 'links', 'orders'})
 # What words of the prompt are demanded for elsewhere.
 _ANCHORED = (WORLD, 'agents', 'uavs')
 
@@ -59,6 +62,19 @@ def unread_spans(
         span
         for clause, span in zip(clauses, spans, strict=True)
         if span is not None and clause.status is ClauseStatus.NOT_ENCODED
+    )
+
+
+def aside_spans(
+    clauses: Sequence[ClauseReading], spans: Sequence[Span | None], facts: PromptFacts
+) -> tuple[Span, ...]:
+    """Return the spans of the clauses that ask for nothing, where their words agree."""
+    return tuple(
+        span
+        for clause, span in zip(clauses, spans, strict=True)
+        if clause.status is ClauseStatus.NO_REQUIREMENT
+        and span is not None
+        and not may_ask(span, facts)
     )
 
 
@@ -117,17 +133,12 @@ def _check_clause(
             complaints.append(
                 f'clause {words!r} tells somebody something, and cites no event for it'
             )
-        refuses = any(a.kind is AtomKind.NEGATION for a in within)
         stays_up = any(a.kind is AtomKind.IN_FLIGHT or a.key == 'land' for a in within)
-        if refuses and not stays_up and not kinds & {'conditions', 'counts', 'forbidden', 'links'}:
+        if denies(within, facts) and not stays_up and not kinds & _CAN_DENY:
             complaints.append(
                 f'clause {words!r} denies something: it needs a condition, or is not_encoded'
             )
-    silent = (AtomKind.STOP, AtomKind.NEGATION)
-    asks = not needs_nothing(
-        [a for a in within if a.kind not in silent and not (a.is_actor and facts.is_denied(a))]
-    )
-    if clause.status is ClauseStatus.NO_REQUIREMENT and asks:
+    if clause.status is ClauseStatus.NO_REQUIREMENT and may_ask(span, facts):
         complaints.append(
             f'clause {words!r} may ask for something: it cannot be no_requirement; make it '
             'not_encoded when the schema cannot say it'

@@ -8,6 +8,7 @@ bound and the span are read from them.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -16,13 +17,29 @@ from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import Number
 from aurora_core.parsing.measures import TIME, UNREADABLE, Measure
-from aurora_core.spec.parameter import Bound, Parameter, Span
+from aurora_core.parsing.values import default
+from aurora_core.spec.parameter import Bound, Parameter, Span, Unit
 
 # A model may round `60 feet` to 18.29 m; what counts is what the prompt says.
 _ROUNDING = 0.01
 _ONE_SIDED = ('altitude', 'standoff', 'link_loss', 'link_latency', 'link_range')
 _ACROSS = ('diameter', 'across', 'wide')
 _BESIDE_CHARACTERS = 16
+# What words state without a number.
+_ZERO = re.compile(r'\bloss-?less\b|-free\b|\bfree of\b|\bzero\b')
+_REST = re.compile(r'\bstandstill|\bhalts?\b|\bat rest\b|\bstops?\b|\bstationary')
+_ALL = re.compile(r'\b(?:all|always|constant|continuous|every|whole|throughout|entire)')
+_AT_ONCE = re.compile(r'\bimmediate|\binstant|\bat once\b|\bzero\b')
+_HALF = re.compile(r'\bhalf\b')
+_WORDS = {
+    Unit.ONE: ((_ZERO, 0.0), (_ALL, 1.0), (_HALF, 0.5)),
+    Unit.SECOND: ((_AT_ONCE, 0.0),),
+    Unit.METRE_PER_SECOND: ((_REST, 0.0),),
+}
+# `once a second`, `twice per minute`: per second.
+_OFTEN = re.compile(r'\b(once|twice|one|every)\b.*\b(second|minute)\b')
+_TIMES = {'once': 1.0, 'one': 1.0, 'every': 1.0, 'twice': 2.0}
+_PERIODS_S = {'second': 1.0, 'minute': 60.0}
 # What one stated number may be at once: `closing from 45 m`, `a square of 50 m`, `reaches 40 m`.
 _TOGETHER = (
     {'closing_from', 'placement_distance'},
@@ -169,7 +186,14 @@ class StatedNumbers:
         return last[0].key if last and last[0].kind is AtomKind.PREPOSITION else ''
 
     def _in_words(self, name: str, number: Number, spans: Sequence[Span]) -> Parameter | None:
-        """`from the north`, `without retransmissions`: stated without a number."""
+        """`from the north`, `lossless`, `half of the time`: stated without a number."""
+        text = self._facts.text(spans[0]).lower()
+        for words, value in _WORDS.get(default(name).unit, ()):
+            if words.search(text) and _close(value, number.value):
+                return values.stated(name, value, spans[0].start, spans[0].end)
+        often = _OFTEN.search(text) if name == 'link_rate' else None
+        if often is not None and _close(_TIMES[often[1]] / _PERIODS_S[often[2]], number.value):
+            return values.stated(name, number.value, spans[0].start, spans[0].end)
         before = [a for a in self._facts.atoms if a.end <= spans[0].start][-1:]
         for atom in self._facts.atoms:
             if not any(overlap(atom, span) for span in spans) and atom not in before:
@@ -177,8 +201,7 @@ class StatedNumbers:
             north = name in ('bearing', 'wind_from') and atom.kind is AtomKind.COMPASS
             if north and _close(float(atom.key) % 360, number.value % 360):
                 return values.stated(name, float(atom.key), atom.start, atom.end)
-            no = name == 'link_retransmissions' and atom.kind is AtomKind.NEGATION
-            if no and number.value == 0:
+            if atom.kind is AtomKind.NEGATION and number.value == 0:
                 return values.stated(name, 0, spans[0].start, spans[0].end)
         return None
 

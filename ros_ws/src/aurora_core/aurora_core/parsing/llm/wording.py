@@ -13,7 +13,7 @@ from aurora_core.parsing.constructions.ground import BEHAVIORS
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Pattern, Relation
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Pattern, Relation
 
 _MODES = {
     'hover': MissionMode.HOVER,
@@ -40,6 +40,8 @@ _TELLING = frozenset(
         'circulate',
     }
 )
+# Verbs that are about somebody.
+_OF_SOMEBODY = frozenset({'follow', 'tailgate', 'track', 'trail'})
 # Relations that prepositions state too.
 _BY_PREPOSITION = (Relation.AT, Relation.ON, Relation.BEFORE, Relation.PARKED_AT)
 _BEHIND_ITS_TARGET = ('follow', 'tailgate', 'overtake', 'approach')
@@ -91,7 +93,9 @@ class Wording:
                 known = {BEHAVIORS[key] for key in keys if key in BEHAVIORS}
                 if self._within(said.quote, AtomKind.SIREN):
                     known.add(BehaviorKind.EMERGENCY_RUN)
-                weak = said.kind is BehaviorKind.DRIVE and keys & _WEAK
+                weak = said.kind is BehaviorKind.DRIVE and bool(keys & _WEAK)
+                # A vehicle that crosses a place drives over it.
+                weak |= agent.type is not AgentType.PEDESTRIAN and keys == {'cross'}
                 if known and said.kind not in known and not weak:
                     where = f'{agent.id}.behaviors[{i}].kind'
                     self._say(where, said.quote, (k.value for k in known), said.kind.value)
@@ -131,11 +135,23 @@ class Wording:
             mode = _MODES.get(atom.key)
             kind = BEHAVIORS.get(atom.key)
             shown = mode in modes or (kind is not None and kind.value in done)
-            if (atom.key in _TELLING or mode is not None) and not shown:
+            if (atom.key in _TELLING or mode is not None) and not shown and self._acts(atom):
                 self._complaints.append(
                     f'{self._facts.text(atom)!r} is said and nothing in the answer does it: '
                     'encode it, or make its clause not_encoded'
                 )
+
+    def _acts(self, verb: Atom) -> bool:
+        """Tell whether a verb has the meaning of the lexicon here.
+
+        `follows the rules` is about nobody, and a vehicle that `crosses` drives over a place.
+        """
+        behind = [a for a in self._facts.atoms if a.start >= verb.end]
+        behind = [a for a in behind if a.kind is not AtomKind.FILL][:1]
+        if verb.key in _OF_SOMEBODY:
+            return bool(behind) and (behind[0].is_actor or behind[0].is_place)
+        crosses = verb.key == 'cross'
+        return not crosses or any(a.type is AgentType.PEDESTRIAN for a in self._reading.agents)
 
     def _is_denied(self, atom: Atom) -> bool:
         before = [a for a in self._facts.atoms if a.end <= atom.start][-2:]
