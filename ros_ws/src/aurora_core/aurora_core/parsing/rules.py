@@ -228,6 +228,7 @@ def _onlookers(scene: Scene) -> None:
                 target=seen,
                 target_inferred=seen is not None,
                 needs_target=track,
+                told=False,
             )
         )
 
@@ -253,6 +254,9 @@ def _infer_target(scene: Scene, draft: MissionDraft) -> None:
     target = target or _actor_of_an_event(scene)
     if target is None and len(scene.missions_of(draft.uav)) > 1:
         _withdraw(scene, draft)
+        return
+    if target is None and not draft.told:
+        draft.mode = MissionMode.HOVER  # nobody that it could be: it passes messages on
         return
     if target is None:
         words = scene.prompt[draft.span.start : draft.span.end]

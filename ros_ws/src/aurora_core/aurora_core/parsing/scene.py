@@ -68,6 +68,7 @@ class MissionDraft:
 
     Attributes:
         on_the_way: Only where to is said: `flies to the park`.
+        told: The prompt says that it is flown; a UAV that only reports flies as well.
     """
 
     id: str
@@ -96,6 +97,7 @@ class MissionDraft:
     ends_in_flight: bool = False
     watching: bool = False  # told with `watches`, `sees`
     on_the_way: bool = False
+    told: bool = True
     span: Span
 
 

@@ -25,7 +25,14 @@ from aurora_core.parsing.doubts.clauses import (
     within,
 )
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.scenario import AgentAction, Clause, ScenarioSpec
+from aurora_core.spec.scenario import (
+    AgentAction,
+    Clause,
+    MessageTrigger,
+    ScenarioSpec,
+    SendMessage,
+    bodies_of,
+)
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, ClauseStatus, Relation, Role
 
 _ON_FOOT = frozenset({AgentType.PEDESTRIAN, AgentType.RSU})
@@ -63,7 +70,7 @@ def without_part(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
             continue
         if any(a.kind is AtomKind.NEGATION and a.key in _ENDED for a in words):
             continue  # what it does no longer is told by the phase before
-        part = taking_part(spec, clause)
+        part = taking_part(spec, clause) | _told_of(spec, clause)
         awaits = any(a.kind is AtomKind.VERB and a.key in _AWAITS for a in words)
         if following is not None and awaits:
             part |= taking_part(spec, following)
@@ -73,6 +80,21 @@ def without_part(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
             if not any(u.start <= span.start and span.end <= u.end for u in unread)
         ]
     return lost
+
+
+def _told_of(spec: ScenarioSpec, clause: Clause) -> frozenset[str]:
+    """Return whom somebody lets pass on a message: whoever that is about."""
+    waited = {
+        e.trigger.by
+        for e in spec.events
+        if e.id in clause.ids
+        and isinstance(e.trigger, MessageTrigger)
+        and isinstance(e.action, AgentAction)
+        and e.action.do == 'yield'
+    }
+    sent = (e for e in spec.events if isinstance(e.action, SendMessage))
+    about = [bodies_of(e) for e in sent if getattr(e.action, 'receiver', None) in waited]
+    return frozenset[str]().union(*about)
 
 
 def idle(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

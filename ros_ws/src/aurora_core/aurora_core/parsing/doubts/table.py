@@ -105,12 +105,21 @@ _CHECKS: tuple[_Check, ...] = (
 )
 
 
-def doubtful(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
+# These hold the grammar against a second, shallow reading, or against what it cannot read: a model
+# that understood a sentence they contradict more often than they catch it.
+_OF_GRAMMAR: frozenset[_Check] = frozenset(
+    {bare_sequels, contents, flights_without_verb, misplaced}
+)
+
+
+def doubtful(spec: ScenarioSpec, atoms: Sequence[Atom], *, by_model: bool = False) -> list[Span]:
     """Return the characters of encoded clauses that the specification does not carry.
 
     Args:
         spec: The specification as it stands.
         atoms: All atoms of the prompt as tagged, where they stand in it.
+        by_model: A language model read it, not the grammar.
     """
-    found = {span.start: span for check in _CHECKS for span in check(spec, atoms)}
+    checks = [c for c in _CHECKS if not (by_model and c in _OF_GRAMMAR)]
+    found = {span.start: span for check in checks for span in check(spec, atoms)}
     return [found[start] for start in sorted(found)]

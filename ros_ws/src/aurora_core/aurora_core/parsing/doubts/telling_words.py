@@ -272,7 +272,8 @@ def _exclusive(spec: ScenarioSpec, clause: Clause) -> bool:
 def _on_wheels(spec: ScenarioSpec, clause: Clause) -> bool:
     """Nobody on foot is to do it: `it drives on` is not said of a person."""
     walking = {a.id for a in spec.agents if a.type is AgentType.PEDESTRIAN}
-    return not any(
+    drives = {a.id for a in spec.agents} - walking
+    return bool(drives & set(clause.ids)) or not any(
         isinstance(e.action, AgentAction) and e.action.agent in walking
         for e in spec.events
         if e.id in clause.ids
@@ -409,6 +410,26 @@ def _mutual(spec: ScenarioSpec, clause: Clause) -> bool:
     return between or near or placed
 
 
+def _within(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Two that follow each other in a stated time."""
+    return any(o.within_s is not None for o in spec.orders if o.id in clause.ids)
+
+
+def _several(spec: ScenarioSpec, clause: Clause) -> bool:
+    """All that there are, where no traffic is about: two or more with the same part."""
+    told = [e for e in spec.events if e.id in clause.ids]
+    told_to = {e.action.receiver for e in told if isinstance(e.action, SendMessage)}
+    acting = {e.action.agent for e in told if isinstance(e.action, AgentAction)}
+    return spec.world.traffic_density is None and max(len(told_to), len(acting)) > 1
+
+
+def _retries(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A link that sends again what was lost, or reports by itself, as often as is stated."""
+    links = [link for link in spec.links if link.id in clause.ids]
+    told = [p for link in links for p in (link.retransmissions, link.rate_hz) if p is not None]
+    return any(p.provenance is Provenance.EXPLICIT for p in told)
+
+
 def _messaged(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(isinstance(e.trigger, MessageTrigger) for e in spec.events)
 
@@ -466,6 +487,9 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'no_event': _no_event,
     'mutual': _mutual,
     'messaged': _messaged,
+    'within': _within,
+    'several': _several,
+    'retries': _retries,
 }
 
 

@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from itertools import takewhile
 
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
+from aurora_core.parsing.lexicon import Tag, shipped_lexicon
 from aurora_core.parsing.llm.asides import speaks
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import AgentReading, MissingReading, Reading, UavReading
@@ -28,6 +30,9 @@ _ALSO_CALLED = {
 }
 _ARTICLES = frozenset({'a', 'an', 'the'})
 _ON_FOOT = (AgentType.PEDESTRIAN, AgentType.RSU)
+# `vehicle V2`, `car B`: somebody of a name.
+_DESIGNATION = re.compile(r'\d|\b[A-Z]\b')
+_OTHERS = re.compile(r'(?:the )?(?:those|others?|rest|remaining|some)\b', re.IGNORECASE)
 # What may stand between the two of `a white and a black van`.
 _JOINED = (AtomKind.FILL, AtomKind.COMMA, AtomKind.CONJUNCTION)
 _UNAVAILABLE = (NounKind.UNSUPPORTED, NounKind.UNKNOWN, NounKind.MISSING_LANDMARK)
@@ -45,6 +50,10 @@ class Anchors:
         self._facts = facts
         self._complaints = complaints
         self._atoms: dict[str, Atom] = {}
+
+    def count(self, atom: Atom) -> int:
+        """Return how many actors of the reading were anchored in some words."""
+        return self._taken(atom)
 
     def of(self, actor_id: str) -> Atom | None:
         """Return the words that an actor of the reading was anchored in."""
@@ -69,9 +78,9 @@ class Anchors:
             )
             return
         named = [a for a in self._facts.actors if any(overlap(a, s) for s in spans)]
-        named = named or self._shared_heads(spans)
+        named = named or self._shared_heads(spans) or self._others(spans, actor)
         named = [a for a in named if not self._facts.is_denied(a)]
-        fitting = [a for a in named if a.noun is not None and _names(a.noun, actor)]
+        fitting = [a for a in named if a.noun is not None and self._may_name(a.noun, actor)]
         if not fitting and isinstance(actor, UavReading):
             seen = self._flying_without_a_name()
             fitting = [a for a in seen if any(overlap(a, s) for s in spans)]
@@ -89,13 +98,20 @@ class Anchors:
                 f'{actor.id}: {actor.quote!r} names {self._room(fitting[0])}, and there are more'
             )
             return
-        if self._is_again(free[0], actor):
+        if self._is_again(free[0], actor) and _DESIGNATION.search(actor.quote) is None:
             self._complaints.append(
                 f'{actor.id}: {self._facts.text(free[0])!r} means the {what[2:]} already named: '
                 'use its id'
             )
             return
         self._atoms[actor.id] = free[0]
+
+    def _may_name(self, noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
+        """`the lead vehicle of four vans` is a van."""
+        if _names(noun, actor) or isinstance(actor, UavReading):
+            return _names(noun, actor)
+        types = {a.noun.key for a in self._facts.actors if a.noun and a.noun.plural}
+        return noun.kind is NounKind.VEHICLE and actor.type.value in types
 
     def _flying_without_a_name(self) -> list[Atom]:
         """Return words that need a UAV: `from above`; where none is named, `hover over …`."""
@@ -111,6 +127,15 @@ class Anchors:
         joined = takewhile(lambda a: a.kind in _JOINED, behind)
         rest = behind[len(list(joined)) :]
         return [a for a in rest[:1] if a in self._facts.actors and self._told_before(a)]
+
+    def _others(self, spans: Sequence[Span], actor: AgentReading | UavReading) -> list[Atom]:
+        """`cars that hear it … | those out of range`: more of a kind told in the plural."""
+        if _OTHERS.match(self._facts.text(spans[0])) is None:
+            return []
+        before = [a for a in self._facts.actors if a.end <= spans[0].start]
+        return [
+            a for a in before if a.noun is not None and a.noun.plural and _names(a.noun, actor)
+        ]
 
     def _told_before(self, atom: Atom) -> int:
         """Return how many are told by words that share the noun of another one."""
@@ -162,7 +187,7 @@ class Anchors:
                 wanted = 'missing' if noun.kind is NounKind.UNSUPPORTED else 'a question'
                 self._complaints.append(f'{words!r} is no agent type: expected {wanted}')
             return
-        if self._facts.is_denied(atom) or speaks(atom):
+        if self._facts.is_denied(atom) or speaks(atom) or _is_flight(noun):
             return
         fitting = [actor for actor in actors if _may_mean(noun, actor)]
         stated = noun.count > 1 and noun.determiner is Determiner.BARE
@@ -200,6 +225,12 @@ def is_ego(noun: NounPhrase) -> bool:
         return True
     vehicle = noun.kind in (NounKind.AGENT, NounKind.VEHICLE)
     return vehicle and (noun.determiner is Determiner.MY or 'ego' in noun.labels)
+
+
+def _is_flight(noun: NounPhrase) -> bool:
+    """Tell whether a noun may as well be what a UAV does: `resumes the patrol`."""
+    senses = shipped_lexicon().senses(tuple(noun.head_text.split()[-1:]))
+    return any(s.tag is Tag.VERB and s.key in _FLYING_VERBS for s in senses)
 
 
 def _may_mean(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:

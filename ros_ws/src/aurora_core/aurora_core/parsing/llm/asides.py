@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 from aurora_core.parsing.asks_nothing import BESIDE, LABEL, reason_of, stands_as_label
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, needs_nothing
-from aurora_core.parsing.llm.facts import PromptFacts, overlap
+from aurora_core.parsing.llm.facts import PromptFacts, inside
 from aurora_core.parsing.measures import COUNT
 from aurora_core.spec.parameter import Span
 
@@ -22,12 +22,14 @@ _WONDERS = re.compile(r'\b(?:whether|how|if|what|why)$')
 _LEAVES_OPEN = frozenset({'can', 'could', 'may', 'might'})
 # Said of the scene as a whole, these words are a request.
 _STATES = (AtomKind.WORLD, AtomKind.PATTERN, AtomKind.STREETS_FLAG, AtomKind.NO_TRAFFIC)
+# Of whom these are denied nothing is asked.
+_NO_DEEDS = frozenset({'be', 'contain', 'see'})
 _TURNED = (AtomKind.AUXILIARY, AtomKind.FILL)
 
 
 def may_ask(span: Span, facts: PromptFacts) -> bool:
     """Tell whether a clause may ask for something: then it cannot be `no_requirement`."""
-    within = [a for a in facts.atoms if overlap(a, span)]
+    within = [a for a in facts.atoms if inside(a, span)]
     told = [
         a
         for a in within
@@ -74,20 +76,17 @@ def denies(within: Sequence[Atom], facts: PromptFacts) -> bool:
     """Tell whether a negation of a clause denies a deed or a body, and does not only tell who.
 
     `the black van, not the white one` and `the van that never stops` say who is meant; in `when it
-    no longer sees the van` the negation belongs to the cause.
+    no longer sees the van` the negation belongs to the cause; nobody is made to notice something.
     """
     for k, atom in enumerate(within):
         if atom.kind is not AtomKind.NEGATION:
             continue
-        before = [a for a in within[:k] if a.kind not in _TURNED][-1:]
         if any(a.kind in (AtomKind.RELATIVE, AtomKind.SUBORDINATOR) for a in within[:k]):
             continue
         behind = next((a for a in within[k + 1 :] if a.kind not in _TURNED), None)
-        if behind is None:
+        noun = behind.noun if behind is not None else None
+        if behind is None or (noun is not None and noun.determiner is Determiner.DEFINITE and k):
             continue
-        noun = behind.noun
-        if noun is not None and noun.determiner is Determiner.DEFINITE and before:
-            continue
-        if behind.kind is AtomKind.VERB or (noun is not None and behind.is_actor):
+        if behind.is_actor or (behind.kind is AtomKind.VERB and behind.key not in _NO_DEEDS):
             return True
     return False

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pydantic import ValidationError
 
 from aurora_core.outcomes.parse import ParseOutcome, Refusal, RefusalKind
+from aurora_core.parsing.asks_nothing import set_aside
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, NounKind
 from aurora_core.parsing.doubts.table import doubtful
@@ -88,18 +89,22 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
     parts = Parts(facts, numbers, complaints)
     try:
         build_scene(reading, parts, anchors)
-        numbers.lost()
+        numbers.lost(anchors.count)
         _put_clauses(parts.scene, reading, spans, parts.ids, facts)
         settle(parts.scene)
+        _set_labels_aside(parts.scene, facts)
         if parts.scene.questions:
             question = ' '.join(dict.fromkeys(parts.scene.questions))
             return ParseOutcome(question=question, clauses=parts.scene.finished_clauses())
         spec = build(parts.scene)
-        complaints += [
-            f'{spec.prompt[span.start : span.end]!r} asks for something and nothing in the answer '
-            'carries it: make these words a clause that is not_encoded'
-            for span in doubtful(spec, facts.atoms)
-        ]
+        doubts = doubtful(spec, facts.atoms, by_model=True)
+        if doubts:
+            # Not for the model to mend: the schema has nothing for these words.
+            parts.scene.clauses += [
+                ClauseDraft(span=span, notes=['nothing in the scenario accounts for this'])
+                for span in doubts
+            ]
+            spec = build(parts.scene)
     except ValidationError as err:
         complaints += _schema_complaints(err)
         return None
@@ -129,6 +134,16 @@ def _put_clauses(
                 notes=[note for note in (clause.note, alone) if note],
             )
         )
+
+
+def _set_labels_aside(scene: Scene, facts: PromptFacts) -> None:
+    """`white`, `large`: words that only tell bodies apart ask for nothing; nor do thanks."""
+    set_aside(scene.clauses, scene.prompt)
+    labels = frozenset(word for a in facts.actors if a.noun for word in a.noun.labels)
+    for clause in scene.clauses:
+        words = facts.text(clause.span).lower().split()
+        if clause.status is ClauseStatus.NOT_ENCODED and words and labels.issuperset(words):
+            clause.status = ClauseStatus.NO_REQUIREMENT
 
 
 def _refused(reading: Reading, missing: Sequence[Atom], facts: PromptFacts) -> ParseOutcome:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.constructions.messages import TELLING
 from aurora_core.parsing.llm.asides import denies, may_ask
 from aurora_core.parsing.llm.facts import PromptFacts, overlap
@@ -127,7 +127,7 @@ def _check_clause(
     if clause.status is ClauseStatus.ENCODED:
         if not clause.ids:
             complaints.append(f'clause {words!r} is encoded and cites no id')
-        tells = any(a.kind is AtomKind.VERB and a.key in TELLING for a in within)
+        tells = any(_tells(a, facts) for a in within)
         kinds = {elements.get(one) for one in clause.ids}
         if tells and not kinds & {'events', 'links', 'conditions'}:
             complaints.append(
@@ -143,6 +143,12 @@ def _check_clause(
             f'clause {words!r} may ask for something: it cannot be no_requirement; make it '
             'not_encoded when the schema cannot say it'
         )
+
+
+def _tells(atom: Atom, facts: PromptFacts) -> bool:
+    """Tell whether somebody is told something; behind an article stands a noun: `a relay`."""
+    article = facts.prompt[: atom.start].lower().split()[-1:] in (['a'], ['an'], ['the'])
+    return atom.kind is AtomKind.VERB and atom.key in TELLING and not article
 
 
 def read_by_the_model_alone(span: Span, facts: PromptFacts) -> str:

@@ -19,6 +19,7 @@ from aurora_core.parsing.llm.reading import (
     TriggerReading,
 )
 from aurora_core.parsing.scene import EventDraft, LinkDraft
+from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.scenario import (
@@ -45,6 +46,8 @@ _TRIGGERS: dict[str, tuple[str, str, str, str]] = {
     'mission_done': ('uav', '', '', 'delay'),
     'battery_below': ('uav', '', 'value', 'condition_ratio'),
 }
+# How near, far, slow or fast may be left open.
+_OPEN = ('distance_below', 'distance_above', 'speed_below', 'speed_above')
 _UAV_ACTIONS = ('land', 'return_home', 'ascend', 'change_mission')
 _CONDITION_VALUES = {
     Unit.METRE: 'condition_distance',
@@ -91,6 +94,8 @@ def _trigger(name: str, given: TriggerReading, parts: Parts) -> Trigger:
     _put(fields, subject, parts.ref_or_none(given.subject), f'{where}.subject')
     _put(fields, other, parts.ref_or_none(given.other), f'{where}.other')
     known = parts.number(parameter, given.value, f'{where}.value')
+    if known is None and given.on in _OPEN:
+        known = default(parameter)
     _put(fields, value, known, f'{where}.value')
     return _TRIGGER.validate_python(fields)
 

@@ -13,11 +13,13 @@ import re
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, NounKind
 from aurora_core.parsing.landmarks import landmark_phrases
-from aurora_core.parsing.measures import Measure
+from aurora_core.parsing.measures import COUNT, Measure
 from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.tokens import tokenize
 from aurora_core.spec.parameter import Span
 
+# Letters that a number is glued to.
+_NAME_BEFORE = re.compile(r'[A-Za-z]-?$')
 _QUOTES = str.maketrans({'’': "'", '‘': "'", '“': '"', '”': '"'})
 
 
@@ -41,6 +43,12 @@ class PromptFacts:
     def measures(self) -> tuple[Measure, ...]:
         """Every stated number, counts of actors aside."""
         return tuple(atom.measure for atom in self.atoms if atom.measure is not None)
+
+    def only_names(self, measure: Measure) -> bool:
+        """Tell whether a number is part of a name, or a word for somebody: `V1`, `one of them`."""
+        text = self.prompt[measure.start : measure.end]
+        glued = _NAME_BEFORE.search(self.prompt[: measure.start]) is not None
+        return measure.dimension == COUNT and (glued or text.lower() == 'one')
 
     @property
     def actors(self) -> tuple[Atom, ...]:

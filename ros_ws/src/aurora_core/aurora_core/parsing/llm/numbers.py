@@ -9,14 +9,15 @@ bound and the span are read from them.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import permutations
 
 from aurora_core.parsing import values
-from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import Number
-from aurora_core.parsing.measures import TIME, UNREADABLE, Measure
+from aurora_core.parsing.measures import COUNT, TIME, UNREADABLE, Measure
 from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Bound, Parameter, Span, Unit
 
@@ -30,10 +31,12 @@ _ZERO = re.compile(r'\bloss-?less\b|-free\b|\bfree of\b|\bzero\b')
 _REST = re.compile(r'\bstandstill|\bhalts?\b|\bat rest\b|\bstops?\b|\bstationary')
 _ALL = re.compile(r'\b(?:all|always|constant|continuous|every|whole|throughout|entire)')
 _AT_ONCE = re.compile(r'\bimmediate|\binstant|\bat once\b|\bzero\b')
+_EVERY_SECOND = re.compile(r'\b(?:every|each|per|a) second\b')
+_EVERY_MINUTE = re.compile(r'\b(?:every|each|per|a) minute\b')
 _HALF = re.compile(r'\bhalf\b')
 _WORDS = {
     Unit.ONE: ((_ZERO, 0.0), (_ALL, 1.0), (_HALF, 0.5)),
-    Unit.SECOND: ((_AT_ONCE, 0.0),),
+    Unit.SECOND: ((_AT_ONCE, 0.0), (_EVERY_SECOND, 1.0), (_EVERY_MINUTE, 60.0)),
     Unit.METRE_PER_SECOND: ((_REST, 0.0),),
 }
 # `once a second`, `twice per minute`: per second.
@@ -44,6 +47,14 @@ _PERIODS_S = {'second': 1.0, 'minute': 60.0}
 _TOGETHER = (
     {'closing_from', 'placement_distance'},
     {'pattern_length', 'pattern_width'},
+)
+
+# What is triggered, or demanded, of what a number says elsewhere.
+_OF_WHAT_IS_SAID = frozenset(
+    {
+        *('condition_distance', 'condition_ratio', 'condition_speed', 'condition_time'),
+        *('trigger_distance', 'trigger_speed', 'trigger_time'),
+    }
 )
 
 
@@ -81,6 +92,9 @@ class StatedNumbers:
             return self._explicit(name, number, where)
         if number.value == line.value:
             return line
+        derived = self._derived(name, number)
+        if derived is not None:
+            return derived
         if not line.low <= number.value <= line.high:
             self._complaints.append(
                 f'{where}: an inferred value must be in {line.low:g} to {line.high:g}, found '
@@ -89,10 +103,18 @@ class StatedNumbers:
             return line
         return values.inferred(name, number.value)
 
-    def lost(self) -> None:
-        """Object to every stated number that is in no parameter and in no unread clause."""
+    def lost(self, counted: Callable[[Atom], int]) -> None:
+        """Object to every stated number that is in no parameter and in no unread clause.
+
+        Args:
+            counted: How many actors stand for the words that name them.
+        """
         for measure in self._facts.measures:
-            if self._is_unread(measure):
+            if (
+                self._facts.only_names(measure)
+                or self._is_unread(measure)
+                or self._counts_actors(measure, counted)
+            ):
                 continue
             words = self._facts.text(measure)
             if measure.dimension == UNREADABLE:
@@ -105,6 +127,16 @@ class StatedNumbers:
                     f'the prompt states {words!r}{both}, and no explicit number quotes it: encode '
                     'it, or make its clause not_encoded'
                 )
+
+    def _counts_actors(self, measure: Measure, counted: Callable[[Atom], int]) -> bool:
+        """`at least two cars` that became two."""
+        behind = next((a for a in self._facts.atoms if a.start >= measure.end), None)
+        return (
+            measure.dimension == COUNT
+            and behind is not None
+            and behind.is_actor
+            and counted(behind) == measure.value
+        )
 
     def _is_unread(self, measure: Measure) -> bool:
         return any(inside(measure, clause) for clause in self._unread)
@@ -130,7 +162,7 @@ class StatedNumbers:
             free.sort(key=lambda fit: self._is_unread(fit[0]))
             measure, part, value = (free or fits)[0]
             before = self._claimed.setdefault((measure.start, part), name)
-            if before != name and {before, name} not in _TOGETHER:
+            if before != name and not _may_share(before, name):
                 self._complaints.append(
                     f'{where}: {self._facts.text(measure)!r} is the {before} already; one stated '
                     'number has one meaning'
@@ -147,10 +179,35 @@ class StatedNumbers:
         )
         return values.default(name)
 
+    def _derived(self, name: str, number: Number) -> Parameter | None:
+        """Return a value that two stated ones give: cut at 40 s for 5 s, so until 45 s.
+
+        It is as binding as they are, and it accounts for them.
+        """
+        fits = [m for m in self._facts.measures if values.accepts(name, m)]
+        for one, other in permutations(fits, 2):
+            value = next(
+                (
+                    v
+                    for v in (one.value + other.value, one.value - other.value)
+                    if v > 0.0 and _close(v, number.value)
+                ),
+                None,
+            )
+            free = [m for m in (one, other) if (m.start, 0) not in self._claimed]
+            if value is None or not free:
+                continue
+            for measure in free:
+                self._claimed[measure.start, 0] = 'condition_time'
+            return values.stated(name, value, free[0].start, free[0].end)
+        return None
+
     def _meanings(self, name: str, measure: Measure) -> list[tuple[int, float]]:
         """Return what a measure may mean for a parameter: which of its numbers, and the value."""
         if name == 'link_rate' and measure.dimension == TIME and measure.value > 0.0:
             return [(0, 1.0 / measure.value)]  # `every 2 s`
+        if measure.dimension == COUNT and measure.value == 0.0 and measure.upper is None:
+            return [(0, 0.0)]  # `from 0 to 30 km/h`: nothing has any unit
         if not values.accepts(name, replace(measure, upper=None, second=None)):
             return []
         found = [(0, measure.value)]
@@ -188,6 +245,10 @@ class StatedNumbers:
     def _in_words(self, name: str, number: Number, spans: Sequence[Span]) -> Parameter | None:
         """`from the north`, `lossless`, `half of the time`: stated without a number."""
         text = self._facts.text(spans[0]).lower()
+        if name == 'scene_count':
+            told = [a.noun for a in self._facts.actors if any(overlap(a, s) for s in spans)]
+            if any(n is not None and (n.count or 1) == number.value for n in told):
+                return values.stated(name, number.value, spans[0].start, spans[0].end)
         for words, value in _WORDS.get(default(name).unit, ()):
             if words.search(text) and _close(value, number.value):
                 return values.stated(name, value, spans[0].start, spans[0].end)
@@ -208,6 +269,11 @@ class StatedNumbers:
 
 def _parts(measure: Measure) -> tuple[int, ...]:
     return (0,) if measure.upper is None and measure.second is None else (0, 1)
+
+
+def _may_share(one: str, other: str) -> bool:
+    """Tell whether one stated number may be both: `stops out of the range of 400 m`."""
+    return {one, other} in _TOGETHER or one in _OF_WHAT_IS_SAID or other in _OF_WHAT_IS_SAID
 
 
 def _close(stated: float, said: float) -> bool:

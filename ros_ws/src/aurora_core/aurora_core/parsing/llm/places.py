@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from aurora_core.parsing.atoms import Atom, NounKind
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.spec.parameter import Span
@@ -47,11 +47,25 @@ def check_world(
         stated = sorted({a.key.split(':', 1)[1] for a in atoms})
         said = getattr(reading.world, kind)
         found = said.value if said is not None else 'null'
-        if said is None and stated == ['clear']:
-            continue  # `a clear view`; where nothing is said it is clear as well
+        if said is None and all(_describes(a, facts) for a in atoms):
+            continue
         if found not in (stated or ['null']):
             told = ' or '.join(stated) or 'null (the prompt states none)'
             complaints.append(f'world.{kind}: expected {told}, found {found}')
+
+
+def _describes(word: Atom, facts: PromptFacts) -> bool:
+    """`storm wind`, `night shift`, `10 m clear`: of something else than the scene.
+
+    Where nothing is said the weather is clear.
+    """
+    behind = next((a for a in facts.atoms if a.start >= word.end), None)
+    kinds = (AtomKind.UNKNOWN, AtomKind.THING, AtomKind.WORLD_NOUN)
+    attached = behind is not None and not facts.prompt[word.end : behind.start].strip()
+    unknown = behind is not None and (
+        behind.kind in kinds or (behind.noun is not None and behind.noun.kind is NounKind.UNKNOWN)
+    )
+    return word.key == 'weather:clear' or (attached and unknown)
 
 
 def is_place(reference: str) -> bool:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.constructions.ground import BEHAVIORS
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
+from aurora_core.parsing.llm.places import is_place
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Pattern, Relation
@@ -44,6 +45,8 @@ _TELLING = frozenset(
 _OF_SOMEBODY = frozenset({'follow', 'tailgate', 'track', 'trail'})
 # Relations that prepositions state too.
 _BY_PREPOSITION = (Relation.AT, Relation.ON, Relation.BEFORE, Relation.PARKED_AT)
+# How one can be placed by a place.
+_AT_PLACES = (*_BY_PREPOSITION, Relation.BESIDE, Relation.NEAR)
 _BEHIND_ITS_TARGET = ('follow', 'tailgate', 'overtake', 'approach')
 
 
@@ -94,6 +97,8 @@ class Wording:
                 if self._within(said.quote, AtomKind.SIREN):
                     known.add(BehaviorKind.EMERGENCY_RUN)
                 weak = said.kind is BehaviorKind.DRIVE and bool(keys & _WEAK)
+                # One drives, whatever for.
+                weak |= known == {BehaviorKind.DRIVE}
                 # A vehicle that crosses a place drives over it.
                 weak |= agent.type is not AgentType.PEDESTRIAN and keys == {'cross'}
                 if known and said.kind not in known and not weak:
@@ -104,6 +109,8 @@ class Wording:
         for agent in self._reading.agents:
             for i, said in enumerate(agent.placements):
                 known = {a.key for a in self._within(said.quote, AtomKind.RELATION)}
+                if said.relation in _AT_PLACES and is_place(said.of or ''):
+                    continue  # `in front of the school`: near it
                 if known and said.relation not in (*_BY_PREPOSITION, *known):
                     where = f'{agent.id}.placements[{i}].relation'
                     self._say(where, said.quote, known, said.relation.value)
@@ -160,9 +167,8 @@ class Wording:
     def _lost_patterns(self) -> None:
         flown = {m.pattern.value for m in self._reading.missions if m.pattern is not None}
         for atom in self._read:
-            # Vehicles stand in a line too.
-            line = atom.key == Pattern.LINE.value
-            if atom.kind is AtomKind.PATTERN and atom.key not in flown and not line:
+            # Vehicles stand in a line too, and of a route that is told `circular` may be a zone.
+            if atom.kind is AtomKind.PATTERN and not flown and atom.key != Pattern.LINE.value:
                 self._complaints.append(
                     f'{self._facts.text(atom)!r} is said, and no mission has the pattern '
                     f'{atom.key}'
@@ -178,10 +184,21 @@ class Wording:
             if atom.kind is AtomKind.RELATION and atom.key not in placed:
                 if atom.key in (Relation.NEAR.value, Relation.BEFORE.value):
                     continue  # distances and times are said with these words too
+                if self._is_of_a_moment(atom):
+                    continue
                 self._complaints.append(
                     f'{self._facts.text(atom)!r} is said, and no placement has the relation '
                     f'{atom.key}: encode it, or make these words a clause that is not_encoded'
                 )
+
+    def _is_of_a_moment(self, atom: Atom) -> bool:
+        """Tell whether a clause became something that happens or is demanded, or is of UAVs."""
+        reading = self._reading
+        elements = (*reading.events, *reading.conditions, *reading.forbidden)
+        ids = {e.id for e in elements}
+        flies = {e.id for e in (*reading.missions, *reading.uavs)}
+        clauses = [c for c in reading.clauses if ids & set(c.ids) or flies >= set(c.ids)]
+        return any(overlap(atom, s) for c in clauses for s in self._facts.spans(c.quote))
 
     def _flag(self, name: str, stated: AtomKind, allowed: tuple[AtomKind, ...]) -> None:
         missions = [m.id for m in self._reading.missions if getattr(m, name)]
