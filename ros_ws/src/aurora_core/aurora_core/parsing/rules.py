@@ -211,9 +211,13 @@ def _onlookers(scene: Scene) -> None:
         if scene.missions_of(uav):
             continue
         seen = _seen_by(scene, uav)
-        reports = any(
-            isinstance(e.action, SendMessage) and e.action.sender == uav.id for e in scene.events
-        )
+        sent = [
+            e
+            for e in scene.events
+            if isinstance(e.action, SendMessage) and e.action.sender == uav.id
+        ]
+        reports = bool(sent)
+        relays = all(isinstance(e.trigger, MessageTrigger) for e in sent)
         # With nobody to track, a UAV that only passes messages on waits in the air.
         track = seen is not None or (
             reports and any(e.type is not AgentType.RSU for e in scene.agents)
@@ -228,7 +232,7 @@ def _onlookers(scene: Scene) -> None:
                 target=seen,
                 target_inferred=seen is not None,
                 needs_target=track,
-                told=False,
+                told=not relays,
             )
         )
 

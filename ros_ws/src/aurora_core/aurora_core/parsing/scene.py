@@ -68,7 +68,7 @@ class MissionDraft:
 
     Attributes:
         on_the_way: Only where to is said: `flies to the park`.
-        told: The prompt says that it is flown; a UAV that only reports flies as well.
+        told: It is flown for something that is told; who only passes messages on waits in the air.
     """
 
     id: str

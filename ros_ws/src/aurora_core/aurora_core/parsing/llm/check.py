@@ -81,7 +81,8 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
     # Words that ask for nothing have no part in the answer either.
     free = (*unread, *aside_spans(reading.clauses, spans, facts))
     anchors.read(reading, free)
-    check_places(reading, facts, free, complaints)
+    admitted: list[Span] = []
+    check_places(reading, facts, free, complaints, admitted)
     check_world(reading, facts, free, complaints)
     check_clauses(reading, spans, facts, complaints)
     Wording(reading, facts, free, complaints).check()
@@ -97,12 +98,12 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
             question = ' '.join(dict.fromkeys(parts.scene.questions))
             return ParseOutcome(question=question, clauses=parts.scene.finished_clauses())
         spec = build(parts.scene)
-        doubts = doubtful(spec, facts.atoms, by_model=True)
-        if doubts:
+        admitted += doubtful(spec, facts.atoms, by_model=True)
+        if admitted:
             # Not for the model to mend: the schema has nothing for these words.
             parts.scene.clauses += [
                 ClauseDraft(span=span, notes=['nothing in the scenario accounts for this'])
-                for span in doubts
+                for span in admitted
             ]
             spec = build(parts.scene)
     except ValidationError as err:

@@ -14,9 +14,21 @@ from aurora_core.spec.vocabulary import Place
 
 
 def check_places(
-    reading: Reading, facts: PromptFacts, unread: Sequence[Span], complaints: list[str]
+    reading: Reading,
+    facts: PromptFacts,
+    unread: Sequence[Span],
+    complaints: list[str],
+    admitted: list[Span],
 ) -> None:
-    """Object to places that the prompt does not name, and to named ones that nothing uses."""
+    """Object to places that the prompt does not name, and to named ones that nothing uses.
+
+    Args:
+        reading: What the model says.
+        facts: The prompt.
+        unread: Clauses in which nothing has to be.
+        complaints: Where objections go.
+        admitted: Where words go that nothing can carry, and that no model can mend.
+    """
     named = {_reference(atom) for atom in facts.places}
     used = {r for r in _references(reading) if is_place(r)}
     complaints += [
@@ -30,10 +42,20 @@ def check_places(
                 'it: encode it, or make its clause not_encoded'
             )
     for atom in facts.atoms:
-        missing = atom.noun is not None and atom.noun.kind is NounKind.MISSING_LANDMARK
+        lacking = atom.noun is not None and atom.noun.kind is NounKind.MISSING_LANDMARK
         told = any(overlap(atom, s) for m in reading.missing for s in facts.spans(m.quote))
-        if missing and not told and not _is_unread(atom, unread):
+        if not lacking or told or _is_unread(atom, unread) or _is_part(atom, facts):
+            continue
+        if any(word[:1].isupper() for word in facts.text(atom).split()):
             complaints.append(f'{facts.text(atom)!r} is not on this map: expected it in missing')
+        else:  # `a bus stop`: no name, and no place that could be missing
+            admitted.append(Span(start=atom.start, end=atom.end))
+
+
+def _is_part(atom: Atom, facts: PromptFacts) -> bool:
+    """`the plaza of Harbor Market`: a part of a place that there is."""
+    behind = [a for a in facts.atoms if a.start >= atom.end][:2]
+    return len(behind) == 2 and behind[0].key == 'of' and behind[1].is_place
 
 
 def check_world(

@@ -184,7 +184,7 @@ class Wording:
             if atom.kind is AtomKind.RELATION and atom.key not in placed:
                 if atom.key in (Relation.NEAR.value, Relation.BEFORE.value):
                     continue  # distances and times are said with these words too
-                if self._is_of_a_moment(atom):
+                if self._is_of_a_moment(atom) or self._by_a_place(atom):
                     continue
                 self._complaints.append(
                     f'{self._facts.text(atom)!r} is said, and no placement has the relation '
@@ -199,6 +199,12 @@ class Wording:
         flies = {e.id for e in (*reading.missions, *reading.uavs)}
         clauses = [c for c in reading.clauses if ids & set(c.ids) or flies >= set(c.ids)]
         return any(overlap(atom, s) for c in clauses for s in self._facts.spans(c.quote))
+
+    def _by_a_place(self, atom: Atom) -> bool:
+        """`in front of the school`: of a place every relation is a nearness."""
+        behind = next((a for a in self._facts.atoms if a.start >= atom.end), None)
+        placed = (p.of for agent in self._reading.agents for p in agent.placements)
+        return behind is not None and behind.is_place and any(is_place(of or '') for of in placed)
 
     def _flag(self, name: str, stated: AtomKind, allowed: tuple[AtomKind, ...]) -> None:
         missions = [m.id for m in self._reading.missions if getattr(m, name)]

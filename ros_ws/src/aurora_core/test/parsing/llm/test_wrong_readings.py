@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a right reading may say is no way out for a wrong one: objected to, or admitted."""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from aurora_core.outcomes.parse import ParseContext
+from aurora_core.parsing.llm.check import judge
+from aurora_core.parsing.llm.facts import PromptFacts
+from aurora_core.spec.vocabulary import ClauseStatus
+
+_FILE = Path(__file__).with_name('right_readings.yaml')
+_ROWS = {row['about']: row for row in yaml.safe_load(_FILE.read_text('utf-8'))}
+CONTEXT = ParseContext(landmark_names=('City Hall', 'Meadow Park', 'Harbor Market'))
+Answer = dict[str, Any]
+
+
+def _purpose_of_a_demand(a: Answer) -> None:
+    a['clauses'][2] |= {'status': 'no_requirement', 'ids': []}
+
+
+def _thanks_with_a_place(a: Answer) -> None:
+    a['missions'], a['uavs'] = [], []
+    a['clauses'][0] |= {'status': 'no_requirement', 'ids': []}
+
+
+def _half_for_a_quarter(a: Answer) -> None:
+    a['conditions'][0]['value']['value'] = 0.25
+
+
+def _loss_for_none(a: Answer) -> None:
+    a['links'][0]['loss']['value'] = 0.2
+
+
+def _third_van(a: Answer) -> None:
+    a['agents'].append({'id': 'van3', 'type': 'van', 'quote': 'a black van'})
+
+
+def _second_vehicle(a: Answer) -> None:
+    a['agents'].append({'id': 'car2', 'type': 'car', 'quote': 'The vehicle'})
+    a['agents'].append({'id': 'car3', 'type': 'car', 'quote': 'The vehicle'})
+
+
+def _order_of_nothing(a: Answer) -> None:
+    a['orders'][0]['then'] = 'bus1'
+
+
+def _empty_event(a: Answer) -> None:
+    del a['events'][0]['trigger']
+
+
+def _forbidden_twice(a: Answer) -> None:
+    a['forbidden'][1]['agent'] = 'van1'
+
+
+def _denied_and_done(a: Answer) -> None:
+    a['forbidden'] = [a['forbidden'][1]]
+    a['clauses'][0]['ids'] = ['van1']
+
+
+def _landed_place(a: Answer) -> None:
+    a['conditions'][1]['of'] = ['intersection']
+
+
+def _separation_of_one(a: Answer) -> None:
+    a['conditions'][0]['of'] = ['uav1']
+
+
+def _unit_of_another_quantity(a: Answer) -> None:
+    a['conditions'][0]['quantity'] = 'speed'
+
+
+def _missing_value(a: Answer) -> None:
+    del a['conditions'][0]['value']
+
+
+@pytest.mark.parametrize(
+    ('about', 'lie', 'words'),
+    [
+        ('a title and a purpose', _purpose_of_a_demand, 'cannot be no_requirement'),
+        ('thanks with a name, and a remark', _thanks_with_a_place, 'cannot be no_requirement'),
+        ('a share in words', _half_for_a_quarter, 'is not what'),
+        ('zero in words', _loss_for_none, 'is not what'),
+        ('a negation that only tells who is meant', _third_van, 'there are more'),
+        ('two nouns for one actor', _second_vehicle, 'there are more'),
+        ('an order without an event of its own', _order_of_nothing, 'no event or mission'),
+        ('a milestone that others wait for', _empty_event, 'a trigger, an action or both'),
+        ('prohibitions of several kinds', _forbidden_twice, 'expected agent with kind, type'),
+        ('prohibitions of several kinds', _denied_and_done, 'denies something'),
+        ('landed and completed with deadlines', _landed_place, 'landed is of [UAV]'),
+        ('count words and ordinals', _separation_of_one, 'separation is of [body, body'),
+        ('count words and ordinals', _unit_of_another_quantity, "speed is in 'm/s', found 'm'"),
+        ('count words and ordinals', _missing_value, 'needs op and a value'),
+    ],
+    ids=lambda value: getattr(value, '__name__', ''),
+)
+def test_wrong_reading_goes_back(about: str, lie: Callable[[Answer], None], words: str) -> None:
+    row = copy.deepcopy(_ROWS[about])
+    lie(row['answer'])
+    judgement = judge(json.dumps(row['answer']), PromptFacts(row['prompt'], CONTEXT))
+    assert judgement.outcome is None
+    assert any(words in complaint for complaint in judgement.complaints), judgement.complaints
+
+
+def test_words_that_nothing_carries_are_admitted_and_not_forced() -> None:
+    """The model drops `all vehicles` and the speed below which one slows down."""
+    prompt = (
+        'A drone tracks a bus and warns all vehicles near it. '
+        'At 20 s the bus slows to below 5 m/s.'
+    )
+    reading: Answer = {
+        'agents': [{'id': 'bus1', 'type': 'bus', 'quote': 'a bus'}],
+        'uavs': [{'id': 'uav1', 'quote': 'A drone'}],
+        'missions': [
+            {'id': 'm1', 'uav': 'uav1', 'mode': 'track', 'target': 'bus1', 'quote': 'tracks a bus'}
+        ],
+        'events': [
+            {
+                'id': 'e1',
+                'action': {'do': 'send_message', 'subject': 'uav1', 'receiver': 'bus1'},
+                'quote': 'warns all vehicles near it',
+            },
+            {
+                'id': 'e2',
+                'trigger': {'on': 'time', 'value': {'value': 20, 'unit': 's', 'quote': '20 s'}},
+                'action': {
+                    'do': 'slow',
+                    'subject': 'bus1',
+                    'value': {'value': 5, 'unit': 'm/s', 'quote': '5 m/s'},
+                },
+                'quote': 'the bus slows',
+            },
+        ],
+        'clauses': [
+            {
+                'quote': 'A drone tracks a bus and warns all vehicles near it',
+                'status': 'encoded',
+                'ids': ['bus1', 'm1', 'e1'],
+            },
+            {
+                'quote': 'At 20 s the bus slows to below 5 m/s',
+                'status': 'encoded',
+                'ids': ['e2'],
+            },
+        ],
+    }
+    judgement = judge(json.dumps(reading), PromptFacts(prompt, CONTEXT))
+    assert judgement.complaints == ()
+    assert judgement.outcome is not None
+    open_words = {
+        c.text for c in judgement.outcome.clauses if c.status is ClauseStatus.NOT_ENCODED
+    }
+    assert {'all vehicles', 'below 5 m/s'} <= open_words
