@@ -182,7 +182,7 @@ class StatedNumbers:
     def _derived(self, name: str, number: Number) -> Parameter | None:
         """Return a value that two stated ones give: cut at 40 s for 5 s, so until 45 s.
 
-        It is as binding as they are, and it accounts for them.
+        It has no other value in its domain, as they have none, and it accounts for them.
         """
         fits = [m for m in self._facts.measures if values.accepts(name, m)]
         for one, other in permutations(fits, 2):
@@ -199,7 +199,8 @@ class StatedNumbers:
                 continue
             for measure in free:
                 self._claimed[measure.start, 0] = 'condition_time'
-            return values.stated(name, value, free[0].start, free[0].end)
+            bound = {'value': value, 'low': value, 'high': value, 'provenance': 'inferred'}
+            return Parameter.model_validate(default(name).model_dump() | bound)
         return None
 
     def _meanings(self, name: str, measure: Measure) -> list[tuple[int, float]]:
