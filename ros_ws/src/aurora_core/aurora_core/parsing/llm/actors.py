@@ -169,6 +169,14 @@ class Anchors:
             for known in self._atoms.values()
         )
 
+    def _rides(self, atom: Atom) -> bool:
+        """`a girl on a bicycle`: one body, told by two nouns."""
+        behind = [a for a in self._facts.atoms if a.start >= atom.end][:2]
+        on = len(behind) == 2 and (
+            behind[0].key in ('on', 'in') or behind[0].kind is AtomKind.VERB
+        )
+        return on and self._taken(behind[1]) > 0
+
     def _lost(
         self,
         atom: Atom,
@@ -188,6 +196,8 @@ class Anchors:
                 self._complaints.append(f'{words!r} is no agent type: expected {wanted}')
             return
         if self._facts.is_denied(atom) or speaks(atom) or _is_flight(noun):
+            return
+        if noun.key == AgentType.PEDESTRIAN.value and self._rides(atom):
             return
         fitting = [actor for actor in actors if _may_mean(noun, actor)]
         stated = noun.count > 1 and noun.determiner is Determiner.BARE

@@ -19,6 +19,7 @@ from aurora_core.spec.parameter import Span
 _SILENT = (AtomKind.STOP, AtomKind.NEGATION)
 # What leaves open what follows: `we want to see whether`, `the van may`.
 _WONDERS = re.compile(r'\b(?:whether|how|if|what|why)$')
+_WRITERS = frozenset({'i', 'me', 'mine', 'ours', 'us', 'we'})
 _LEAVES_OPEN = frozenset({'can', 'could', 'may', 'might'})
 # Said of the scene as a whole, these words are a request.
 _STATES = (AtomKind.WORLD, AtomKind.PATTERN, AtomKind.STREETS_FLAG, AtomKind.NO_TRAFFIC)
@@ -52,13 +53,14 @@ def may_ask(span: Span, facts: PromptFacts) -> bool:
 
 
 def speaks(atom: Atom) -> bool:
-    """Tell whether a word means who writes, or nobody: `us`, `it`."""
+    """Tell whether a word means who writes, or nobody that it names: `us`, `it`."""
+    return writes(atom) or (atom.noun is not None and atom.noun.kind is NounKind.PRONOUN)
+
+
+def writes(atom: Atom) -> bool:
+    """Tell whether a word means who writes: `I`, `us`."""
     noun = atom.noun
-    if noun is None:
-        return False
-    return noun.kind is NounKind.PRONOUN or (
-        noun.kind is NounKind.EGO and noun.head_text in ('i', 'us', 'we', 'me', 'ours', 'mine')
-    )
+    return noun is not None and noun.kind is NounKind.EGO and noun.head_text in _WRITERS
 
 
 def _is_open(within: Sequence[Atom]) -> bool:

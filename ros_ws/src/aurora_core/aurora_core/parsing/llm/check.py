@@ -85,8 +85,9 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
     check_places(reading, facts, free, complaints, admitted)
     check_world(reading, facts, free, complaints)
     check_clauses(reading, spans, facts, complaints)
-    Wording(reading, facts, free, complaints).check()
-    numbers = StatedNumbers(facts, free, complaints)
+    Wording(reading, facts, free, complaints, admitted).check()
+    sizes = len(reading.agents), len(reading.uavs)
+    numbers = StatedNumbers(facts, free, complaints, (*sizes, sum(sizes)))
     parts = Parts(facts, numbers, complaints)
     try:
         build_scene(reading, parts, anchors)

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.constructions.messages import TELLING
-from aurora_core.parsing.llm.asides import denies, may_ask
+from aurora_core.parsing.llm.asides import denies, may_ask, writes
 from aurora_core.parsing.llm.facts import PromptFacts, overlap
 from aurora_core.parsing.llm.reading import ClauseReading, Reading
 from aurora_core.spec.parameter import Span
@@ -146,9 +146,19 @@ def _check_clause(
 
 
 def _tells(atom: Atom, facts: PromptFacts) -> bool:
-    """Tell whether somebody is told something; behind an article stands a noun: `a relay`."""
+    """Tell whether somebody of the scene is told something.
+
+    Not in `a relay`, a noun behind its article; not in `send a drone along`; nor where who writes
+    tells or is told: `we were asked`.
+    """
+    if atom.kind is not AtomKind.VERB or atom.key not in TELLING:
+        return False
+    k = facts.atoms.index(atom)
     article = facts.prompt[: atom.start].lower().split()[-1:] in (['a'], ['an'], ['the'])
-    return atom.kind is AtomKind.VERB and atom.key in TELLING and not article
+    beside = facts.atoms[max(0, k - 2) : k + 2]
+    behind = next((a.noun for a in facts.atoms[k + 1 : k + 2]), None)
+    sent = atom.key == 'send' and behind is not None and behind.kind is NounKind.UAV
+    return not (article or sent or any(writes(a) for a in beside))
 
 
 def read_by_the_model_alone(span: Span, facts: PromptFacts) -> str:

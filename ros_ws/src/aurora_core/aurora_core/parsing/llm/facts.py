@@ -18,8 +18,10 @@ from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.tokens import tokenize
 from aurora_core.spec.parameter import Span
 
+_ORDINAL = re.compile(r'\d+(?:st|nd|rd|th)', re.IGNORECASE)
+_VAGUE = frozenset({'one', 'several'})
 # Letters that a number is glued to.
-_NAME_BEFORE = re.compile(r'[A-Za-z]-?$')
+_NAME_BEFORE = re.compile(r'(?:[A-Za-z]-?|#)$')
 _QUOTES = str.maketrans({'’': "'", '‘': "'", '“': '"', '”': '"'})
 
 
@@ -47,8 +49,10 @@ class PromptFacts:
     def only_names(self, measure: Measure) -> bool:
         """Tell whether a number is part of a name, or a word for somebody: `V1`, `one of them`."""
         text = self.prompt[measure.start : measure.end]
+        if _ORDINAL.fullmatch(text):
+            return True
         glued = _NAME_BEFORE.search(self.prompt[: measure.start]) is not None
-        return measure.dimension == COUNT and (glued or text.lower() == 'one')
+        return measure.dimension == COUNT and (glued or text.lower() in _VAGUE)
 
     @property
     def actors(self) -> tuple[Atom, ...]:
@@ -91,7 +95,8 @@ class PromptFacts:
         # `40m` stands in `60x40m`, but `0 m` does not stand in `40 m`.
         digit, letter = words[0][0].isdigit(), words[0][0].isalnum()
         before = r'(?<![\d.,])' if digit else r'(?<!\w)' if letter else ''
-        after = r'(?!\w)' if words[-1][-1].isalnum() else ''
+        ends = words[-1][-1]
+        after = r'(?!\d|[.,]\d)' if ends.isdigit() else r'(?!\w)' if ends.isalnum() else ''
         found = re.finditer(f'{before}{pattern}{after}', self._even, re.IGNORECASE)
         return tuple(Span(start=m.start(), end=m.end()) for m in found)
 

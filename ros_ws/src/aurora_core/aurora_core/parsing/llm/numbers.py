@@ -39,6 +39,9 @@ _WORDS = {
     Unit.SECOND: ((_AT_ONCE, 0.0), (_EVERY_SECOND, 1.0), (_EVERY_MINUTE, 60.0)),
     Unit.METRE_PER_SECOND: ((_REST, 0.0),),
 }
+_ONE_IN = re.compile(r'\b(?:one|1)\b.*\b(?:in|of)\b', re.IGNORECASE)
+# What opens the same number in other words.
+_AGAIN = re.compile(r'(?:\(|=|i\.\s?e\.,?|that is,?)\s*$', re.IGNORECASE)
 # `once a second`, `twice per minute`: per second.
 _OFTEN = re.compile(r'\b(once|twice|one|every)\b.*\b(second|minute)\b')
 _TIMES = {'once': 1.0, 'one': 1.0, 'every': 1.0, 'twice': 2.0}
@@ -49,6 +52,11 @@ _TOGETHER = (
     {'pattern_length', 'pattern_width'},
 )
 
+# What the schema counts beside bodies.
+_COUNTED = frozenset(
+    {AtomKind.LINK, AtomKind.MESSAGE, AtomKind.PATTERN, AtomKind.ROUTE, AtomKind.THING}
+)
+_MULTIPLES = frozenset({'once', 'twice', 'thrice'})
 # What is triggered, or demanded, of what a number says elsewhere.
 _OF_WHAT_IS_SAID = frozenset(
     {
@@ -65,13 +73,22 @@ class StatedNumbers:
         facts: The prompt.
         unread: Clauses that are admitted not to be encoded.
         complaints: Where objections go, worded for the model.
+        groups: How many bodies the answer has: on the ground, in the air, together.
     """
 
-    def __init__(self, facts: PromptFacts, unread: Sequence[Span], complaints: list[str]) -> None:
+    def __init__(
+        self,
+        facts: PromptFacts,
+        unread: Sequence[Span],
+        complaints: list[str],
+        groups: Sequence[int] = (),
+    ) -> None:
         self._facts = facts
+        self._groups = groups
         self._unread = unread
         self._complaints = complaints
         self._claimed: dict[tuple[int, int], str] = {}
+        self._values: list[float] = []
 
     def parameter(self, name: str, number: Number, where: str) -> Parameter:
         """Return the parameter of a number.
@@ -89,6 +106,7 @@ class StatedNumbers:
             )
             return line
         if number.provenance == 'explicit':
+            self._values.append(number.value)
             return self._explicit(name, number, where)
         if number.value == line.value:
             return line
@@ -128,15 +146,29 @@ class StatedNumbers:
                     'it, or make its clause not_encoded'
                 )
 
-    def _counts_actors(self, measure: Measure, counted: Callable[[Atom], int]) -> bool:
-        """`at least two cars` that became two."""
-        behind = next((a for a in self._facts.atoms if a.start >= measure.end), None)
-        return (
-            measure.dimension == COUNT
-            and behind is not None
-            and behind.is_actor
-            and counted(behind) == measure.value
+    def _is_again(self, measure: Measure) -> bool:
+        """`two minutes (120 s)`, `one in ten, i.e. 10 %`: the same number in other words."""
+        before = self._facts.prompt[: measure.start]
+        return _AGAIN.search(before) is not None and any(
+            _close(measure.value, value) for value in self._values
         )
+
+    def _counts_actors(self, measure: Measure, counted: Callable[[Atom], int]) -> bool:
+        """`at least two cars` that became two; `all three`, `two of them`: who is there anyway.
+
+        In words nothing but turns, waypoints, messages and the like is counted beside bodies.
+        """
+        if measure.dimension != COUNT:
+            return False
+        behind = next((a for a in self._facts.atoms if a.start >= measure.end), None)
+        if behind is not None and behind.is_actor:
+            return counted(behind) == measure.value
+        text = self._facts.text(measure)
+        if any(c.isdigit() for c in text) or text.lower() in _MULTIPLES:
+            return False
+        if behind is not None and behind.kind is AtomKind.UNKNOWN:  # `five participants`
+            return measure.value in self._groups
+        return behind is None or behind.kind not in _COUNTED
 
     def _is_unread(self, measure: Measure) -> bool:
         return any(inside(measure, clause) for clause in self._unread)
@@ -162,6 +194,8 @@ class StatedNumbers:
             free.sort(key=lambda fit: self._is_unread(fit[0]))
             measure, part, value = (free or fits)[0]
             before = self._claimed.setdefault((measure.start, part), name)
+            if before != name and self._has_another(before, measure, fits):
+                before = self._claimed[measure.start, part] = name
             if before != name and not _may_share(before, name):
                 self._complaints.append(
                     f'{where}: {self._facts.text(measure)!r} is the {before} already; one stated '
@@ -178,6 +212,13 @@ class StatedNumbers:
             'else is null or inferred'
         )
         return values.default(name)
+
+    def _has_another(
+        self, name: str, measure: Measure, fits: Sequence[tuple[Measure, int, float]]
+    ) -> bool:
+        """Tell whether the words `10 m` stand twice and one parameter has taken both."""
+        others = [m for m, part, _ in fits if self._claimed.get((m.start, part)) == name]
+        return any(other.start != measure.start for other in others)
 
     def _derived(self, name: str, number: Number) -> Parameter | None:
         """Return a value that two stated ones give: cut at 40 s for 5 s, so until 45 s.
@@ -243,6 +284,17 @@ class StatedNumbers:
         last = [a for a in before if not holds or a.end <= holds[0].start][-1:]
         return last[0].key if last and last[0].kind is AtomKind.PREPOSITION else ''
 
+    def _one_in(self, name: str, number: Number, spans: Sequence[Span]) -> Parameter | None:
+        """`one in twenty`, `one message out of five`: a share."""
+        said = [s for s in spans if _ONE_IN.search(self._facts.text(s))]
+        for measure in self._facts.measures if default(name).unit is Unit.ONE else ():
+            within = [s for s in said if inside(measure, s)]
+            counts = measure.dimension == COUNT and measure.value > 1.0
+            if within and counts and _close(1.0 / measure.value, number.value):
+                self._claimed.setdefault((measure.start, 0), name)
+                return values.stated(name, 1.0 / measure.value, within[0].start, within[0].end)
+        return None
+
     def _in_words(self, name: str, number: Number, spans: Sequence[Span]) -> Parameter | None:
         """`from the north`, `lossless`, `half of the time`: stated without a number."""
         text = self._facts.text(spans[0]).lower()
@@ -250,6 +302,9 @@ class StatedNumbers:
             told = [a.noun for a in self._facts.actors if any(overlap(a, s) for s in spans)]
             if any(n is not None and (n.count or 1) == number.value for n in told):
                 return values.stated(name, number.value, spans[0].start, spans[0].end)
+        shared = self._one_in(name, number, spans)
+        if shared is not None:
+            return shared
         for words, value in _WORDS.get(default(name).unit, ()):
             if words.search(text) and _close(value, number.value):
                 return values.stated(name, value, spans[0].start, spans[0].end)

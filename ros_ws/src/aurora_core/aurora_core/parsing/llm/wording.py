@@ -14,7 +14,14 @@ from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.places import is_place
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Pattern, Relation
+from aurora_core.spec.vocabulary import (
+    AgentType,
+    BehaviorKind,
+    MissionMode,
+    Pattern,
+    Place,
+    Relation,
+)
 
 _MODES = {
     'hover': MissionMode.HOVER,
@@ -41,6 +48,18 @@ _TELLING = frozenset(
         'circulate',
     }
 )
+_STILL = (BehaviorKind.PARK, BehaviorKind.STOP, BehaviorKind.WAIT)
+# What is said in other words by another relation, or of the other one of two.
+_SAID_BY = {
+    'ahead': ('behind', 'before', 'same_lane'),
+    'behind': ('ahead', 'before', 'same_lane'),
+    'beside': ('left', 'right', 'adjacent_lane', 'at', 'near'),
+    'left': ('right', 'beside', 'adjacent_lane'),
+    'right': ('left', 'beside', 'adjacent_lane'),
+    'adjacent_lane': ('left', 'right', 'beside'),
+    'same_lane': ('ahead', 'behind', 'before'),
+}
+_NO_BODIES = (NounKind.STREET, NounKind.SURROUNDINGS, NounKind.UNKNOWN)
 # Verbs that are about somebody.
 _OF_SOMEBODY = frozenset({'follow', 'tailgate', 'track', 'trail'})
 # Relations that prepositions state too.
@@ -58,11 +77,18 @@ class Wording:
         facts: The prompt.
         unread: Clauses that are admitted not to be encoded.
         complaints: Where objections go, worded for the model.
+        admitted: Where words go that are not carried, and that may mean something else.
     """
 
     def __init__(
-        self, reading: Reading, facts: PromptFacts, unread: Sequence[Span], complaints: list[str]
+        self,
+        reading: Reading,
+        facts: PromptFacts,
+        unread: Sequence[Span],
+        complaints: list[str],
+        admitted: list[Span],
     ) -> None:
+        self._admitted = admitted
         self._reading = reading
         self._facts = facts
         self._complaints = complaints
@@ -98,10 +124,11 @@ class Wording:
                     known.add(BehaviorKind.EMERGENCY_RUN)
                 weak = said.kind is BehaviorKind.DRIVE and bool(keys & _WEAK)
                 # One drives, whatever for.
-                weak |= known == {BehaviorKind.DRIVE}
+                weak |= known == {BehaviorKind.DRIVE} or known | {said.kind} <= {*_STILL}
                 # A vehicle that crosses a place drives over it.
                 weak |= agent.type is not AgentType.PEDESTRIAN and keys == {'cross'}
-                if known and said.kind not in known and not weak:
+                # Of several verbs in a long quote nobody knows which one is meant.
+                if len(known) == 1 and said.kind not in known and not weak:
                     where = f'{agent.id}.behaviors[{i}].kind'
                     self._say(where, said.quote, (k.value for k in known), said.kind.value)
 
@@ -111,7 +138,7 @@ class Wording:
                 known = {a.key for a in self._within(said.quote, AtomKind.RELATION)}
                 if said.relation in _AT_PLACES and is_place(said.of or ''):
                     continue  # `in front of the school`: near it
-                if known and said.relation not in (*_BY_PREPOSITION, *known):
+                if len(known) == 1 and said.relation not in (*_BY_PREPOSITION, *known):
                     where = f'{agent.id}.placements[{i}].relation'
                     self._say(where, said.quote, known, said.relation.value)
 
@@ -121,7 +148,7 @@ class Wording:
             for atom in self._within(said.quote, AtomKind.NOUN):
                 keys |= set(atom.noun.states) if atom.noun is not None else set()
             modes = {_MODES[key] for key in keys if key in _MODES}
-            if modes and said.mode not in modes:
+            if len(modes) == 1 and said.mode not in modes:
                 self._say(f'{said.id}.mode', said.quote, (m.value for m in modes), said.mode.value)
             patterns = {a.key for a in self._within(said.quote, AtomKind.PATTERN)}
             patterns |= {Pattern.ORBIT.value} if 'orbit' in keys else set()
@@ -142,11 +169,27 @@ class Wording:
             mode = _MODES.get(atom.key)
             kind = BEHAVIORS.get(atom.key)
             shown = mode in modes or (kind is not None and kind.value in done)
+            shown = shown or (atom.key == 'park' and self._stands())
+            shown = shown or (atom.key in ('follow', 'trail') and self._comes_behind())
             if (atom.key in _TELLING or mode is not None) and not shown and self._acts(atom):
                 self._complaints.append(
                     f'{self._facts.text(atom)!r} is said and nothing in the answer does it: '
                     'encode it, or make its clause not_encoded'
                 )
+
+    def _comes_behind(self) -> bool:
+        """Tell whether somebody on the ground is placed behind another: it follows."""
+        placed = (p.relation for agent in self._reading.agents for p in agent.placements)
+        return Relation.BEHIND in placed
+
+    def _stands(self) -> bool:
+        """Tell whether somebody stands somewhere: who is parked may just be placed there."""
+        agents = self._reading.agents
+        still = any(b.kind in _STILL for agent in agents for b in agent.behaviors)
+        beside = (Relation.PARKED_AT.value, Place.ROADSIDE.value)
+        return still or any(
+            p.of in beside or p.relation.value in beside for a in agents for p in a.placements
+        )
 
     def _acts(self, verb: Atom) -> bool:
         """Tell whether a verb has the meaning of the lexicon here.
@@ -181,15 +224,12 @@ class Wording:
         if kinds & set(_BEHIND_ITS_TARGET):
             placed.add(Relation.BEHIND.value)
         for atom in self._read:
-            if atom.kind is AtomKind.RELATION and atom.key not in placed:
+            said = {atom.key, *_SAID_BY.get(atom.key, ())}
+            if atom.kind is AtomKind.RELATION and not said & placed:
                 if atom.key in (Relation.NEAR.value, Relation.BEFORE.value):
                     continue  # distances and times are said with these words too
-                if self._is_of_a_moment(atom) or self._by_a_place(atom):
-                    continue
-                self._complaints.append(
-                    f'{self._facts.text(atom)!r} is said, and no placement has the relation '
-                    f'{atom.key}: encode it, or make these words a clause that is not_encoded'
-                )
+                if not (self._is_of_a_moment(atom) or self._by_a_place(atom)):
+                    self._admitted.append(Span(start=atom.start, end=atom.end))
 
     def _is_of_a_moment(self, atom: Atom) -> bool:
         """Tell whether a clause became something that happens or is demanded, or is of UAVs."""
@@ -201,8 +241,10 @@ class Wording:
         return any(overlap(atom, s) for c in clauses for s in self._facts.spans(c.quote))
 
     def _by_a_place(self, atom: Atom) -> bool:
-        """`in front of the school`: of a place every relation is a nearness."""
+        """`in front of the school`: of a place all are nearness; a street has sides."""
         behind = next((a for a in self._facts.atoms if a.start >= atom.end), None)
+        if behind is not None and behind.noun is not None and behind.noun.kind in _NO_BODIES:
+            return True
         placed = (p.of for agent in self._reading.agents for p in agent.placements)
         return behind is not None and behind.is_place and any(is_place(of or '') for of in placed)
 
@@ -215,7 +257,11 @@ class Wording:
         )
         if missions and not grounds:
             self._complaints.append(f'{missions[0]}.{name}: the prompt does not say so')
-        if words and not missions:
+        routes = [m for m in self._reading.missions if m.mode is MissionMode.NAVIGATE]
+        over = stated is AtomKind.STREETS_FLAG and (
+            not routes or any(m.target == Place.MAIN_ROAD.value for m in routes)
+        )
+        if words and not missions and not over:
             self._complaints.append(
                 f'{self._facts.text(words[0])!r} is said: a mission needs {name} true'
             )
