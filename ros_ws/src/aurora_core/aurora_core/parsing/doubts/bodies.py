@@ -12,7 +12,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 
 from pydantic import BaseModel
 
@@ -207,10 +207,13 @@ def places_without_part(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[S
         if clause.status is not ClauseStatus.ENCODED or not clause.ids:
             continue
         told = _told(spec, clause)
-        for atom in within(atoms, clause.span):
+        words = within(atoms, clause.span)
+        for atom, behind in zip_longest(words, words[1:]):
             noun = atom.noun
             if noun is None or noun.kind not in (NounKind.PLACE, NounKind.LANDMARK):
                 continue
+            if behind is not None and behind.is_actor and behind.start - atom.end == 1:
+                continue  # `a crossing pedestrian`
             if atom.start == clause.span.start:
                 continue  # `Park a drone above it`: a verb, where the map has a park
             if noun.key == 'crosswalk' and _crosses(spec, told):

@@ -21,9 +21,9 @@ _FLYING_VERBS = frozenset({'hover', 'track', 'orbit', 'navigate', 'fly', 'observ
 # What somebody of a type may be called as well, once named: `a police van … the van`.
 _ALSO_CALLED = {
     AgentType.AMBULANCE: ('car', 'truck', 'van'),
-    AgentType.BICYCLE: ('motorcycle',),  # `the bike`
+    AgentType.BICYCLE: ('motorcycle', 'pedestrian'),  # `the bike`, `this person`
     AgentType.FIRETRUCK: ('truck',),
-    AgentType.MOTORCYCLE: ('bicycle',),
+    AgentType.MOTORCYCLE: ('bicycle', 'pedestrian'),
     AgentType.POLICE: ('car', 'motorcycle', 'van'),
     AgentType.TRUCK: ('van',),
     AgentType.VAN: ('car', 'truck'),
@@ -249,7 +249,8 @@ def _may_mean(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
         return _names(noun, actor)
     if noun.kind is NounKind.VEHICLE:
         return actor.type not in _ON_FOOT
-    again = noun.determiner in (Determiner.DEFINITE, Determiner.MY)
+    again = noun.determiner in (Determiner.BARE, Determiner.DEFINITE, Determiner.MY)
+    again = again and not (noun.plural or noun.count)
     return again and noun.key in _ALSO_CALLED.get(actor.type, ())
 
 

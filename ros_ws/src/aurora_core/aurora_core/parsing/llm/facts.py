@@ -20,6 +20,8 @@ from aurora_core.spec.parameter import Span
 
 _ORDINAL = re.compile(r'\d+(?:st|nd|rd|th)', re.IGNORECASE)
 _VAGUE = frozenset({'one', 'several'})
+_CLOCK_BEFORE = re.compile(r'\bt\s*=\s*$', re.IGNORECASE)
+_WORD_BEHIND = re.compile(r'-[A-Za-z]')
 # Letters that a number is glued to.
 _NAME_BEFORE = re.compile(r'(?:[A-Za-z]-?|#)$')
 _QUOTES = str.maketrans({'’': "'", '‘': "'", '“': '"', '”': '"'})
@@ -47,12 +49,12 @@ class PromptFacts:
         return tuple(atom.measure for atom in self.atoms if atom.measure is not None)
 
     def only_names(self, measure: Measure) -> bool:
-        """Tell whether a number is part of a name, or a word for somebody: `V1`, `one of them`."""
-        text = self.prompt[measure.start : measure.end]
-        if _ORDINAL.fullmatch(text):
+        """Tell whether a number demands nothing: `V1`, `one of them`, `twelve-year-olds`."""
+        text, before = self.text(measure), self.prompt[: measure.start]
+        if _ORDINAL.fullmatch(text) or (measure.value == 0.0 and _CLOCK_BEFORE.search(before)):
             return True
-        glued = _NAME_BEFORE.search(self.prompt[: measure.start]) is not None
-        return measure.dimension == COUNT and (glued or text.lower() in _VAGUE)
+        attached = _NAME_BEFORE.search(before) or _WORD_BEHIND.match(self.prompt[measure.end :])
+        return measure.dimension == COUNT and (attached is not None or text.lower() in _VAGUE)
 
     @property
     def actors(self) -> tuple[Atom, ...]:
@@ -76,6 +78,10 @@ class PromptFacts:
         return tuple(
             a for a in self.atoms if a.kind is AtomKind.WORLD and a.key.startswith(f'{kind}:')
         )
+
+    def is_corrected(self, atom: Atom) -> bool:
+        """Tell whether a word was read as another one: `story` as `stormy`."""
+        return atom.words not in self.prompt.lower()
 
     def is_denied(self, atom: Atom) -> bool:
         """Return whether a negation stands right before: `no drone` asks for none."""

@@ -128,11 +128,9 @@ class StatedNumbers:
             counted: How many actors stand for the words that name them.
         """
         for measure in self._facts.measures:
-            if (
-                self._facts.only_names(measure)
-                or self._is_unread(measure)
-                or self._counts_actors(measure, counted)
-            ):
+            if self._facts.only_names(measure) or self._is_again(measure):
+                continue
+            if self._is_unread(measure) or self._counts_actors(measure, counted):
                 continue
             words = self._facts.text(measure)
             if measure.dimension == UNREADABLE:

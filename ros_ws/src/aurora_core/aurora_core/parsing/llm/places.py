@@ -37,7 +37,7 @@ def check_places(
         for place in sorted(used - named)
     ]
     for atom in facts.places:
-        if _reference(atom) not in used and not _is_unread(atom, unread):
+        if _reference(atom) not in used and not _is_free(atom, facts, unread):
             complaints.append(
                 f'{facts.text(atom)!r} is {_reference(atom)}, and nothing in the answer refers to '
                 'it: encode it, or make its clause not_encoded'
@@ -51,6 +51,14 @@ def check_places(
             complaints.append(f'{facts.text(atom)!r} is not on this map: expected it in missing')
         else:  # `a bus stop`: no name, and no place that could be missing
             admitted.append(Span(start=atom.start, end=atom.end))
+
+
+def _is_free(atom: Atom, facts: PromptFacts, unread: Sequence[Span]) -> bool:
+    """Tell whether words need no place: unread, or `a crossing | pedestrian`."""
+    behind = next((a for a in facts.atoms if a.start >= atom.end), None)
+    joined = behind is not None and not facts.prompt[atom.end : behind.start].strip()
+    walks = behind is not None and behind.is_actor and joined
+    return _is_unread(atom, unread) or walks
 
 
 def _is_part(atom: Atom, facts: PromptFacts) -> bool:
@@ -70,7 +78,7 @@ def check_world(
         stated = sorted({a.key.split(':', 1)[1] for a in atoms})
         said = getattr(reading.world, kind)
         found = said.value if said is not None else 'null'
-        if said is None and all(_describes(a, facts) for a in atoms):
+        if said is None and all(_describes(a, facts) or facts.is_corrected(a) for a in atoms):
             continue
         if not stated and _is_understood_alone(reading, facts):
             continue
