@@ -147,9 +147,9 @@ class StatedNumbers:
     def _is_again(self, measure: Measure) -> bool:
         """`two minutes (120 s)`, `one in ten, i.e. 10 %`: the same number in other words."""
         before = self._facts.prompt[: measure.start]
-        return _AGAIN.search(before) is not None and any(
-            _close(measure.value, value) for value in self._values
-        )
+        behind = self._facts.prompt[measure.end :].lstrip()
+        told = _AGAIN.search(before) is not None or behind.startswith(('(', '=', 'i.e.'))
+        return told and any(_close(measure.value, value) for value in self._values)
 
     def _counts_actors(self, measure: Measure, counted: Callable[[Atom], int]) -> bool:
         """`at least two cars` that became two; `all three`, `two of them`: who is there anyway.
@@ -200,6 +200,9 @@ class StatedNumbers:
                     'number has one meaning'
                 )
             return self._as_stated(name, measure, part, value)
+        chosen = self._out_of_a_range(name, number, beside)
+        if chosen is not None:
+            return chosen
         worded = self._in_words(name, number, spans)
         if worded is not None:
             return worded
@@ -210,6 +213,20 @@ class StatedNumbers:
             'else is null or inferred'
         )
         return values.default(name)
+
+    def _out_of_a_range(
+        self, name: str, number: Number, beside: Sequence[Measure]
+    ) -> Parameter | None:
+        """`at between 30 and 40 m`: any height of these; a demand has two ends instead."""
+        for measure in beside:
+            upper = measure.upper
+            fits = values.accepts(name, replace(measure, upper=None))
+            if upper is None or not fits or name in _OF_WHAT_IS_SAID:
+                continue
+            if measure.value <= number.value <= upper:
+                self._claimed[measure.start, 0] = self._claimed[measure.start, 1] = name
+                return values.ranged(name, measure)
+        return None
 
     def _has_another(
         self, name: str, measure: Measure, fits: Sequence[tuple[Measure, int, float]]

@@ -234,9 +234,9 @@ class Wording:
     def _is_of_a_moment(self, atom: Atom) -> bool:
         """Tell whether a clause became something that happens or is demanded, or is of UAVs."""
         reading = self._reading
-        elements = (*reading.events, *reading.conditions, *reading.forbidden)
-        ids = {e.id for e in elements}
-        flies = {e.id for e in (*reading.missions, *reading.uavs)}
+        ids = {e.id for e in reading.events} | {c.id for c in reading.conditions}
+        ids |= {f.id for f in reading.forbidden}
+        flies = {m.id for m in reading.missions} | {u.id for u in reading.uavs}
         clauses = [c for c in reading.clauses if ids & set(c.ids) or flies >= set(c.ids)]
         return any(overlap(atom, s) for c in clauses for s in self._facts.spans(c.quote))
 

@@ -83,6 +83,24 @@ def _missing_value(a: Answer) -> None:
     del a['conditions'][0]['value']
 
 
+def _demand_in_a_range(a: Answer) -> None:
+    a['missions'][0].pop('altitude_m')
+    said = {'value': 35, 'unit': 'm', 'quote': 'between 30 and 40 m'}
+    a['conditions'] = [
+        {'id': 'c1', 'quantity': 'altitude', 'of': ['uav1'], 'op': '>=', 'value': said}
+        | {'quote': 'at between 30 and 40 m'}
+    ]
+    a['clauses'][0]['ids'].append('c1')
+
+
+def _sum_of_nothing(a: Answer) -> None:
+    a['links'][0]['outage_to_s']['value'] = 47
+
+
+def _other_height_of_two(a: Answer) -> None:
+    a['missions'][0]['altitude_m']['value'] = 45
+
+
 @pytest.mark.parametrize(
     ('about', 'lie', 'words'),
     [
@@ -100,6 +118,9 @@ def _missing_value(a: Answer) -> None:
         ('count words and ordinals', _separation_of_one, 'separation is of [body, body'),
         ('count words and ordinals', _unit_of_another_quantity, "speed is in 'm/s', found 'm'"),
         ('count words and ordinals', _missing_value, 'needs op and a value'),
+        ('a height out of a range', _demand_in_a_range, 'is not what'),
+        ('a height out of a range', _other_height_of_two, 'is not what'),
+        ('the end of an outage is the sum of two numbers', _sum_of_nothing, "states '8 s'"),
     ],
     ids=lambda value: getattr(value, '__name__', ''),
 )
