@@ -199,7 +199,7 @@ class Anchors:
             return
         if noun.key == AgentType.PEDESTRIAN.value and self._rides(atom):
             return
-        fitting = [actor for actor in actors if _may_mean(noun, actor)]
+        fitting = [actor for actor in actors if may_mean(noun, actor)]
         stated = noun.count > 1 and noun.determiner is Determiner.BARE
         stated = stated and len(fitting) != noun.count  # `two vehicles, a car and a van`
         if not fitting:
@@ -243,7 +243,7 @@ def _is_flight(noun: NounPhrase) -> bool:
     return any(s.tag is Tag.VERB and s.key in _FLYING_VERBS for s in senses)
 
 
-def _may_mean(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
+def may_mean(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
     """Tell whether a mention may mean an actor: by its type, or once named by a wider word."""
     if _names(noun, actor) or isinstance(actor, UavReading):
         return _names(noun, actor)

@@ -29,6 +29,7 @@ from aurora_core.parsing.llm.parts import Parts
 from aurora_core.parsing.llm.places import check_places, check_world
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.parsing.llm.scene_builder import build_scene
+from aurora_core.parsing.llm.turned import check_turned
 from aurora_core.parsing.llm.wording import Wording
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.rules import settle
@@ -86,6 +87,7 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
     check_world(reading, facts, free, complaints)
     check_clauses(reading, spans, facts, complaints)
     Wording(reading, facts, free, complaints, admitted).check()
+    check_turned(reading, facts, complaints)
     sizes = len(reading.agents), len(reading.uavs)
     numbers = StatedNumbers(facts, free, complaints, (*sizes, sum(sizes)))
     parts = Parts(facts, numbers, complaints)

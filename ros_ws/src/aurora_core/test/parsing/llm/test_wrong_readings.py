@@ -62,6 +62,10 @@ def _forbidden_twice(a: Answer) -> None:
     a['forbidden'][1]['agent'] = 'van1'
 
 
+def _height_for_a_distance(a: Answer) -> None:
+    a['missions'][0]['altitude_m'] = a['missions'][0].pop('standoff_m')
+
+
 def _denied_and_done(a: Answer) -> None:
     a['forbidden'] = [a['forbidden'][1]]
     a['clauses'][0]['ids'] = ['van1']
@@ -101,6 +105,27 @@ def _other_height_of_two(a: Answer) -> None:
     a['missions'][0]['altitude_m']['value'] = 45
 
 
+def _within_as_beyond(a: Answer) -> None:
+    a['events'][0]['trigger']['on'] = 'distance_above'
+
+
+def _act_of_another_verb(a: Answer) -> None:
+    a['events'][0]['action']['do'] = 'accelerate'
+
+
+def _turned_bound(a: Answer) -> None:
+    a['conditions'][0]['op'] = '<='
+
+
+def _turned_sight(a: Answer) -> None:
+    a['events'][0]['trigger']['on'] = 'occluded'
+
+
+def _turned_message(a: Answer) -> None:
+    a['events'][0]['action'] |= {'subject': 'ego', 'receiver': 'uav1'}
+    a['events'][0]['quote'] = 'the drone warns the car'
+
+
 @pytest.mark.parametrize(
     ('about', 'lie', 'words'),
     [
@@ -118,6 +143,12 @@ def _other_height_of_two(a: Answer) -> None:
         ('count words and ordinals', _separation_of_one, 'separation is of [body, body'),
         ('count words and ordinals', _unit_of_another_quantity, "speed is in 'm/s', found 'm'"),
         ('count words and ordinals', _missing_value, 'needs op and a value'),
+        ('zero in words', _within_as_beyond, 'says the opposite'),
+        ('two nouns for one actor', _act_of_another_verb, 'says brake, found accelerate'),
+        ('count words and ordinals', _turned_bound, 'at_least'),
+        ('a milestone that others wait for', _turned_sight, 'that somebody is seen'),
+        ('a message over a link', _height_for_a_distance, 'say standoff_m'),
+        ('a message over a link', _turned_message, 'the other way round'),
         ('a height out of a range', _demand_in_a_range, 'is not what'),
         ('a height out of a range', _other_height_of_two, 'is not what'),
         ('the end of an outage is the sum of two numbers', _sum_of_nothing, "states '8 s'"),
