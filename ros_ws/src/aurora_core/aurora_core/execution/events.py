@@ -5,21 +5,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from aurora_core.comm.link import MessageLink, whole_ticks
+from aurora_core.execution.event_state import EventState, has_crossed, shows_after
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import BatteryRule, Progress, holds
 from aurora_core.execution.untold import heard_before, slowed_later
 from aurora_core.execution.ways import Ways
 from aurora_core.execution.yielding import Yielding
-from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.plan import UavPlan
 from aurora_core.quantities.actions import (
     CLIMBED_M,
-    CROSSED_M,
     FROM_MOTION,
     ActionRules,
     commanded_mps,
@@ -27,7 +25,6 @@ from aurora_core.quantities.actions import (
     rest_s,
     takes_time,
 )
-from aurora_core.quantities.instant import Point3
 from aurora_core.spec.events import actor_of, reports_own_altitude
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
@@ -62,44 +59,6 @@ _BRAKES_FROM_MPS = 1.0
 
 # Speed from which somebody is on the way who is to slow down or stop later (m/s).
 _UNDER_WAY_MPS = 3.0
-
-
-def _shows_after(event: Event) -> int:
-    """Return how many ticks after it is due an action shows in the record.
-
-    A message is sent at once. What an agent is told shows in its state one tick later. A UAV
-    begins a phase with its next step, whose command belongs to the tick after.
-    """
-    if isinstance(event.action, UavAction):
-        return 2
-    return 1 if isinstance(event.action, AgentAction) else 0
-
-
-@dataclass(slots=True)
-class _EventState:
-    """How far an event has come.
-
-    Attributes:
-        acted: Its action was ordered.
-        before_mps: Speed of the agent when it was, None when it has no speed to get to.
-        climbs: A UAV on a mission goes on at another altitude.
-        flies: Mission that somebody waits for a UAV to capture.
-        lane: Lane that the agent is to leave, None when it is to keep its lane.
-        stepped_on: Where a person that crosses stepped onto the carriageway.
-        drove_on: Who stands, or brakes to a standstill, was let drive on for it.
-        done: Its action is complete.
-    """
-
-    event: Event
-    triggered_tick: int | None = None
-    acted: bool = False
-    before_mps: float | None = None
-    climbs: bool = False
-    flies: str | None = None
-    lane: int | None = None
-    stepped_on: Point3 | None = None
-    drove_on: bool = False
-    done: bool = False
 
 
 class EventRunner:
@@ -152,7 +111,7 @@ class EventRunner:
         # as `incomplete`.
         absent = {a.id for a in spec.agents if roster.agent_index(a.id) is None}
         events = (*spec.events, *own_events(spec))
-        self._states = [_EventState(event=e) for e in events if not bodies_of(e) & absent]
+        self._states = [EventState(event=e) for e in events if not bodies_of(e) & absent]
         ids = {e.id for e in spec.events}
         self._before: dict[str, set[str]] = {
             e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}
@@ -246,7 +205,7 @@ class EventRunner:
                 self._begun(state, tick, seen, machines)
         return commands
 
-    def _drives_on(self, state: _EventState, seen: Observation) -> list[GroundCommand]:
+    def _drives_on(self, state: EventState, seen: Observation) -> list[GroundCommand]:
         """Let who was to brake or stop before drive on to change lane."""
         action, since = state.event.action, state.triggered_tick
         if state.drove_on or not isinstance(action, AgentAction) or action.do != 'change_lane':
@@ -269,7 +228,7 @@ class EventRunner:
 
     def _begun(
         self,
-        state: _EventState,
+        state: EventState,
         tick: int,
         seen: Observation,
         machines: Sequence[MissionMachine],
@@ -291,14 +250,14 @@ class EventRunner:
             state.flies = action.mission
         if speed_mps is None and not state.climbs and state.flies is None:
             state.done = True
-            self._progress.done_tick[state.event.id] = tick + _shows_after(state.event)
+            self._progress.done_tick[state.event.id] = tick + shows_after(state.event)
             return
         state.before_mps = speed_mps
         self._finish(state, tick, seen, machines)
 
     def _finish(
         self,
-        state: _EventState,
+        state: EventState,
         tick: int,
         seen: Observation,
         machines: Sequence[MissionMachine],
@@ -322,7 +281,7 @@ class EventRunner:
         if speed_mps is None:
             return
         if action.do == 'cross':
-            complete = _has_crossed(state, action.agent, seen)
+            complete = has_crossed(state, action.agent, seen)
         elif state.lane is not None:
             row = self._roster.agent_index(action.agent)
             complete = row is not None and self._lanes.is_over(row, state.lane, seen)
@@ -474,19 +433,6 @@ class EventRunner:
             harder = GroundCommandKind.SET_DECELERATION
             commands.insert(0, GroundCommand(agent=row, kind=harder, value=BRAKING_MPS2))
         return commands
-
-
-def _has_crossed(state: _EventState, person: str, seen: Observation) -> bool:
-    """Tell whether a person has left the carriageway on the other side; note where it began."""
-    point = seen.position(person)
-    if point is None:
-        return False
-    on = seen.on_carriageway(person)
-    if state.stepped_on is None:
-        state.stepped_on = point if on else None
-        return False
-    x, y, _ = state.stepped_on
-    return not on and norm2(point[0] - x, point[1] - y) >= CROSSED_M
 
 
 def _least_mps(action: AgentAction) -> float:
