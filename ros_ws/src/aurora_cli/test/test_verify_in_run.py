@@ -199,6 +199,7 @@ def test_the_prompt_of_the_folder_is_the_one_in_the_bag(run: Path, call: Call) -
 
 
 FAULT = {'kind': 'link_loss', 'subject': '*', 'value': 1.0}
+ERROR = {'code': 1, 'component': 'recorder', 'message': 'disk full'}
 REPAIR = {'iteration': 1, 'kind': 'single', 'bag': 'bag.1'}
 CHANGES: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
     'seed': ('report.json', lambda d: d.update(seed=7)),
@@ -221,6 +222,10 @@ CHANGES: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
     'motion': ('report.json', lambda d: d['trace'].update(motion_sha256='0' * 64)),
     'integrity': ('report.json', lambda d: d['trace'].update(integrity='altered')),
     'verdict of the trace': ('report.json', lambda d: d['trace'].update(verdict='violated')),
+    'notes of the trace': ('report.json', lambda d: d['trace'].update(notes=['uav1 crashed'])),
+    'question': ('report.json', lambda d: d.update(question='Which bus?')),
+    'error': ('report.json', lambda d: d.update(error=ERROR)),
+    'relaxed': ('report.json', lambda d: d.update(relaxed={'changes': [], 'verdict': 'verified'})),
     'attempt': ('report.json', lambda d: d['bags'][0].update(iteration=1)),
     'attempt more': ('report.json', lambda d: d['bags'].append({**d['bags'][0], 'bag': 'bag.1'})),
     'repair': ('report.json', lambda d: d['repairs'].append(REPAIR)),
@@ -274,6 +279,13 @@ def test_what_two_documents_agree_on_is_held_against_the_bag(run: Path, call: Ca
         assert why in found.first
         for name, data in stored.items():
             (run / name).write_bytes(data)
+
+
+def test_edits_that_nobody_made_are_found(run: Path, call: Call) -> None:
+    (run / 'edits.0.json').write_text(json.dumps({**REPAIR, 'iteration': 0, 'bag': 'bag.0'}))
+    found = said(call, str(run))
+    assert (found.code, found.integrity) == (4, 'altered')
+    assert 'edits.0.json is not what report.json tells' in found.first
 
 
 def test_an_attempt_that_was_taken_away_is_said(run: Path, call: Call) -> None:

@@ -418,15 +418,21 @@ def _implied(
     t = inputs.tolerances
     for row in (_PAIRED if paired else _OWN)[behavior.kind]:
         least = row.least(t)
+        measured, where = row.quantity(inputs), ''
+        if isinstance(measured, Turn) and has_point(behavior.target):
+            measured = measured.model_copy(
+                update={'place': behavior.target, 'near_m': t.arrival_m}
+            )
+            where = f' at {behavior.target}'
         yield condition(
             id=f'{name}{row.part}',
-            sentence=row.says(agent.id, other, t),
+            sentence=f'{row.says(agent.id, other, t)}{where}',
             signal=row.signal.format(a=agent.id, b=other) or None,
             of=(agent.id, other) if paired else (agent.id,),
             target=Target(op=row.op, threshold=least, unit=row.unit),
             fraction=least if row.share else None,
             hold_s=None if row.hold_s is None else row.hold_s(t),
-            arguments=row.quantity(inputs),
+            arguments=measured,
             source=Source(ids=(agent.id,), spans=(behavior.span or agent.span,)),
             every_sample=row.series,
         )

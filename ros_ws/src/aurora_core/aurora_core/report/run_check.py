@@ -42,6 +42,7 @@ from aurora_core.report.run_report import (
     BagReport,
     ClauseReport,
     RelaxedReport,
+    RepairReport,
     RunReport,
     TraceReport,
 )
@@ -303,6 +304,12 @@ def _attempts(run: Path, report: RunReport, iteration: int) -> Iterator[Doubt]:
     expected = names[1 : len(repaired) + 1] if report.status in _CLAIMS_NOTHING else names[1:]
     if repaired != expected:
         yield altered(f'the repairs in {REPORT} are not those of its bags: {", ".join(repaired)}')
+    told = {repair.iteration: repair for repair in report.repairs if repair.bag is not None}
+    for number in range(len(names)):
+        name = StageFile.EDITS.name_at(number)
+        edits = read_document(run / name, RepairReport)
+        if isinstance(edits, RepairReport) and edits != told.get(number):
+            yield altered(f'{name} is not what {REPORT} tells of that attempt')
     for entry in report.bags:
         if entry.iteration != iteration and not (run / f'bag.{entry.iteration}').exists():
             yield unknown(f'bag.{entry.iteration}, which {REPORT} lists, is missing')
@@ -407,6 +414,10 @@ def _by_which_judged(
     feasibility = report.feasibility
     if feasibility is not None and feasibility.result is Feasibility.INFEASIBLE:
         yield altered(f'{REPORT} says infeasible of what was executed')
+    if report.question is not None:
+        yield altered(f'{REPORT} asks a question of what was executed')
+    if report.error is not None and report.status is not Status.ERROR:
+        yield altered(f'{REPORT} tells of an error and of a status that has none')
     trace = report.trace
     if trace is None or (trace.bag, trace.sha256) != (entry.bag, entry.trace_sha256):
         yield altered(f'{REPORT} contradicts itself about {entry.bag}')
@@ -421,6 +432,8 @@ def _by_which_judged(
         return
     again = None if report.relaxed is None else bag.relaxed()
     facts = replace(bag.facts, iterations=executions, relaxed=again)
+    if report.relaxed != again:
+        yield altered(f'{REPORT} has other relaxed values than the bag gives')
     found = first_difference(report, restated(report, facts))
     if found is not None:
         path, told, given = found
@@ -453,7 +466,7 @@ def _claims(trace: TraceReport, entry: BagReport, bag: JudgedBag) -> Iterator[Do
     if bag.verdict.status is not VerdictStatus.INCONCLUSIVE:
         told, found = trace.verdict, bag.verdict.status
         yield from _differs(REPORT, 'the verdict', told.value, found.value)
-        if trace.cross_check != bag.verdict.cross_check:
+        if trace.cross_check != bag.verdict.cross_check or trace.notes != bag.verdict.notes:
             yield altered(f'{REPORT} has other findings than the bag gives')
 
 

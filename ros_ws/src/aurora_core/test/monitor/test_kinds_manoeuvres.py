@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -11,6 +13,7 @@ from kind_rows import Row, gone
 from trace_builder import world
 from trace_cases import Case, ground_case
 
+from aurora_core.knowledge.world import NamedPlace
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind as B
@@ -29,6 +32,17 @@ def _turn(kind: B, degrees: float, *, ticks: int = 100, start_deg: float = 90.0)
     share = np.minimum(np.maximum((TICK - 100) / ticks, 0.0), 1.0)
     bearing = np.radians(start_deg + degrees * share)
     case.run.agents[0].heading = (np.sin(bearing), np.cos(bearing))
+    return case
+
+
+def _turn_at(gate_x: float) -> Case:
+    """A car drives 100 m from (0, 0) on, and turns left from 25 m on; at the gate, as asked."""
+    turns = Behavior(kind=B.TURN_LEFT, target='landmark:Gate')
+    case = ground_case(turns, np.full(T, 5.0))
+    case.run.agents[0].heading = _turn(B.TURN_LEFT, -90.0).run.agents[0].heading
+    case.run.agents[0].x[:], case.run.agents[0].y[:] = 0.25 * TICK, 0.0
+    gate = NamedPlace(name='landmark:Gate', x_m=gate_x, y_m=0.0)
+    case.world = replace(case.world, places=(gate,))
     return case
 
 
@@ -74,6 +88,9 @@ ROWS = (
     ),
     Row(id='car1.turn_left', make=lambda: _turn(B.TURN_LEFT, 90.0), margin=0.0 - 60.0),
     Row(id='car1.turn_left', make=lambda: gone(_turn(B.TURN_LEFT, -90.0), 0, 0), reason=GONE),
+    # There, and 15 s and more before: it turned elsewhere.
+    Row(id='car1.turn_left', make=lambda: _turn_at(30.0), margin=90.0 - 60.0, what='there'),
+    Row(id='car1.turn_left', make=lambda: _turn_at(-250.0), margin=0.0 - 60.0, what='elsewhere'),
     Row(id='car1.turn_right', make=lambda: _turn(B.TURN_RIGHT, 90.0), margin=90.0 - 60.0),
     Row(
         id='car1.turn_right',

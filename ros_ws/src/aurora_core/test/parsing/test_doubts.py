@@ -117,6 +117,15 @@ _NEAR = 'when the van comes within 30 m of the ego car'
         ('While a drone patrols along Main Street, it stays 50 m from a van.', 'it stays'),
         ('A drone hovers at 50 m and stays 100 m away from City Hall.', '100 m away from'),
         ('A drone flies a patrol along Main Street at 40 m.', 'a patrol'),
+        ('Two drones hover over City Hall, one at 50 m, one at 70 m, for 25 s.', '25 s'),
+        ('A drone flies for 60 s and tracks a bus at 40 m altitude.', 'flies for 60 s'),
+        ('While the bus stops, the drone hovers over it at 40 m.', 'While the bus stops'),
+        ('As long as the truck is within 40 m of the bus, the drone tracks it.', 'As long as'),
+        (
+            'Two drones hover at 60 m for 20 s, one over City Hall and one over Harbor Market, '
+            'and stay at least 100 m apart.',
+            'apart',
+        ),
     ],
 )
 def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
@@ -159,6 +168,10 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A drone hovers over City Hall at 50 m while a second one tracks a van.',
         'While a drone tracks a van at 40 m, the van stays within 30 m of the ego car.',
         'There is a police car on Main Street. A drone hovers at 40 m.',
+        'Two drones hover over City Hall for 25 s, one at 50 m and one at 70 m.',
+        'Two drones hover over City Hall at 40 m and 60 m and stay at least 15 m apart.',
+        'A drone flies at 40 m for 30 s.',
+        'While a drone tracks a van, the van is always within 40 m of the ego car.',
     ],
 )
 def test_what_elements_say_is_not_doubted(prompt: str) -> None:

@@ -7,8 +7,10 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 from pydantic import FiniteFloat
 
+from aurora_core.document import omitted
 from aurora_core.judging.evaluation import (
     Context,
     Evaluation,
@@ -20,11 +22,14 @@ from aurora_core.judging.evaluation import (
 from aurora_core.judging.quantity import Quantity
 from aurora_core.judging.until import moving_until
 from aurora_core.outcomes.condition import Condition, Window
+from aurora_core.quantities import motion
 from aurora_core.quantities.angle import compass_bearing_deg, turned_deg
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.stl.windows import Extremum, sliding_clipped
 from aurora_core.trace.layout import GroundColumn
+
+BoolArray = npt.NDArray[np.bool_]
 
 
 class Turn(Quantity):
@@ -34,6 +39,8 @@ class Turn(Quantity):
         side: Which one.
         within_s: Those seconds.
         moving_mps: Speed that counts as moving; who never moves cannot turn.
+        place: Where it is to turn; None: anywhere.
+        near_m: How far from there its front or rear may be.
     """
 
     name = QuantityName.TURN
@@ -42,6 +49,8 @@ class Turn(Quantity):
     side: Literal['left', 'right']
     within_s: FiniteFloat
     moving_mps: FiniteFloat
+    place: str | None = omitted(None)
+    near_m: FiniteFloat | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return the greatest change."""
@@ -55,6 +64,19 @@ class Turn(Quantity):
             turned = -turned
         width = whole_ticks(self.within_s, context.view.dt_s) + 1
         least_before = sliding_clipped(turned[::-1], width, Extremum.LEAST)[::-1]
-        tick = int(np.argmax(turned - least_before))
-        value = float(turned[tick] - least_before[tick])
-        return at_tick(tick, value, evidence=ground_topics(condition), later=Later.RISES)
+        change = turned - least_before
+        if self.place is not None:
+            change = np.where(self._was_there(context, condition)[:end], change, 0.0)
+        tick = int(np.argmax(change))
+        topics = ground_topics(condition)
+        return at_tick(tick, float(change[tick]), evidence=topics, later=Later.RISES)
+
+    def _was_there(self, context: Context, condition: Condition) -> BoolArray:
+        """Return whether it was at the place within those seconds, (T,)."""
+        view, name = context.view, condition.of[0]
+        assert self.place is not None
+        reach_m = (self.near_m or 0.0) + view.body(name).entry.length_m / 2.0
+        near = motion.horizontal_distance(view, name, self.place, on_road=True) <= reach_m
+        last = np.maximum.accumulate(np.where(near, np.arange(len(near)), -len(near)))
+        found: BoolArray = np.arange(len(near)) - last <= whole_ticks(self.within_s, view.dt_s)
+        return found

@@ -102,6 +102,12 @@ def _condition(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(c.id in clause.ids for c in spec.conditions)
 
 
+def _of_bodies(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A distance of bodies, if any: `100 m apart` is none to the place that one is over."""
+    bodies = {one.id for one in (*spec.agents, *spec.uavs)} | {a.group for a in spec.agents}
+    return all(set(c.of) <= bodies for c in spec.conditions if c.id in clause.ids)
+
+
 def _no_latency(spec: ScenarioSpec, clause: Clause) -> bool:
     """No latency, which counts from the sending on: `no later than 2 s after` that alone."""
     told = [c.quantity for c in spec.conditions if c.id in clause.ids]
@@ -381,6 +387,7 @@ CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'timed': _timed,
     'condition': _condition,
     'mission': _mission,
+    'of_bodies': _of_bodies,
     'no_latency': _no_latency,
     'whole_run': _whole_run,
     'unbroken': _unbroken,

@@ -10,6 +10,7 @@ from itertools import pairwise
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.doubts.clauses import (
+    MOMENTS,
     clause_of,
     events_in,
     meet,
@@ -37,6 +38,7 @@ _GROUND = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO})
 _AWAY = ('from', 'away from')
 _APART = re.compile(r'\b(?:apart|away|close|closer|farther|further|near|nearer)\b')
 _STAYS = ('holds', 'keeps', 'remains', 'stays', 'waits')
+_AS_LONG = re.compile(r'(?:while|(?:as|so) long as)\b')
 # Behind these a verb has the subject of the one before.
 _JOINS = frozenset({AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN})
 
@@ -125,6 +127,53 @@ def flights_at_once(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
                 yield over(atom, verbs[-1] if k else verbs[1])
 
 
+def flights_over_nothing(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`flies for 60 s. It tracks a bus` that became a hover before it begins to track."""
+    for mission in spec.missions:
+        nowhere = mission.mode is MissionMode.HOVER and mission.target is None
+        more = [m for m in spec.missions if m.uav == mission.uav and m is not mission]
+        if not nowhere or not more:
+            continue
+        for clause in spec.clauses:
+            verbs = [a for a in within(atoms, clause.span) if a.kind is AtomKind.VERB]
+            flies = bool(verbs) and verbs[0].words.startswith(('flies', 'fly', 'flying'))
+            if flies and mission.id in clause.ids and clause.status is ClauseStatus.ENCODED:
+                yield clause.span
+
+
+def shared_durations(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`two drones hover, one at 50 m and one at 70 m, for 25 s` that became that of one alone."""
+    for sentence in sentences(atoms):
+        uavs = [a.noun for a in sentence if a.noun is not None and a.noun.kind is NounKind.UAV]
+        both = any(noun.count > 1 for noun in uavs)
+        both = both or re.search(r'\bboth\b', _words(spec, sentence)) is not None
+        ids = {i for a in sentence if (c := clause_of(spec, a)) is not None for i in c.ids}
+        told = [m for m in spec.missions if m.id in ids]
+        said = [m for m in told if m.duration_s is not None and _explicit(m.duration_s)]
+        if both and said and len({m.uav for m in told}) > len({m.uav for m in said}):
+            for mission in said:
+                assert mission.duration_s is not None
+                if mission.duration_s.span is not None:
+                    yield mission.duration_s.span
+
+
+def while_it_stops(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`while the bus stops, the drone hovers over it`: nothing ties the flight to the stop.
+
+    `As long as the truck is near, the drone tracks it` asks no truck to be near.
+    """
+    for sentence in sentences(atoms):
+        if not sentence or not _AS_LONG.match(_words(spec, sentence)):
+            continue
+        verbs = [a for a in sentence if a.kind is AtomKind.VERB][:2]
+        clause = clause_of(spec, sentence[0]) or (clause_of(spec, verbs[0]) if verbs else None)
+        if clause is None or events_in(spec, clause) or not verbs:
+            continue
+        asked = any(c.id in clause.ids for c in spec.conditions)
+        if (asked or verbs[0].key in MOMENTS) and _missions(spec, verbs[-1]):
+            yield over(sentence[0], sentence[0]) if asked else over(sentence[0], verbs[0])
+
+
 def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`another one hovers 12 m above it` that became a hover 12 m above the ground."""
     flying = {uav.id for uav in spec.uavs}
@@ -206,3 +255,11 @@ def _flown(spec: ScenarioSpec, atoms: Sequence[Atom]) -> set[str]:
 def _missions(spec: ScenarioSpec, verb: Atom) -> set[str]:
     clause = clause_of(spec, verb)
     return set() if clause is None else {m.id for m in spec.missions} & set(clause.ids)
+
+
+def _words(spec: ScenarioSpec, sentence: Sequence[Atom]) -> str:
+    return spec.prompt[sentence[0].start : sentence[-1].end].lower() if sentence else ''
+
+
+def _explicit(parameter: Parameter) -> bool:
+    return parameter.provenance is Provenance.EXPLICIT

@@ -30,14 +30,17 @@ from aurora_core.parsing.doubts.bodies import (
 )
 from aurora_core.parsing.doubts.flights import (
     flights_at_once,
+    flights_over_nothing,
     flights_without_verb,
     folded_climbs,
     heights_from_somebody,
     heights_over_fliers,
     heights_passed_twice,
     hovers_over_movers,
+    shared_durations,
     stays_of_others,
     watched_while_hovering,
+    while_it_stops,
 )
 from aurora_core.parsing.doubts.messages import (
     contents,
@@ -84,6 +87,9 @@ _CHECKS: tuple[_Check, ...] = (
     heights_passed_twice,
     hovers_over_movers,
     flights_at_once,
+    flights_over_nothing,
+    shared_durations,
+    while_it_stops,
     stays_of_others,
     other_receivers,
     told_by_a_person,
