@@ -173,13 +173,13 @@ def _stop(case: Case, agent: str, window: Window) -> Acted:
             if _comes_early(case, agent, window, a):
                 return Acted(does_not(f'{agent} stands from {scene.times[a]:.2f} s, too early'))
             done = max(float(scene.times[a]), window.late_s)
-            why = holds(f'{agent} stands at {done:.2f} s already')
+            stands = holds(f'{agent} stands at {done:.2f} s already')
             # Who arrives may have done so, and come to rest, before it is there for sure.
             rests = [c for c, _ in stops if first <= c <= scene.tick(window.late_s)]
             if not rests:
-                return Acted(why, done, done)
+                return Acted(stands, done, done)
             since, done = float(scene.times[rests[0]]), float(scene.times[rests[-1]])
-            return Acted(why, done, done, done_from_s=since)
+            return Acted(stands, done, done, done_from_s=since)
     onset = _onset(case, _slowing(case, agent), window)
     if onset is None:
         return _never(case, window, f'{agent} does not slow down')

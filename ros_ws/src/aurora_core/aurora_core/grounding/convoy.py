@@ -391,7 +391,7 @@ def _ties(
 
 def _chasing(agent: str, behaviors: Sequence[Behavior], distances: Distances) -> list[Tie]:
     """Return the ties of an agent to those ahead of it that it does something to."""
-    ties = []
+    ties: list[Tie] = []
     for number, behavior in enumerate(behaviors):
         assert behavior.target is not None
         gap = behavior.closing_from_m

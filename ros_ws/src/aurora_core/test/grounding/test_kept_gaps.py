@@ -43,6 +43,7 @@ def test_who_keeps_a_distance_neither_falls_back_nor_closes_up(
         1.0 / agent_types[follower[:-1]].decel_mps2 - 1.0 / agent_types[leader[:-1]].decel_mps2
     )
     assert own.min_gap_m == pytest.approx(gap, abs=0.7 + 32.0 * max(0.0, longer))
+    assert own.min_gap_m is not None
     assert own.min_gap_m <= gap + 0.1
     assert own.time_gap_s == pytest.approx(0.05)
     assert other.gentle_mps2 == agent_types[own.type_name].accel_mps2

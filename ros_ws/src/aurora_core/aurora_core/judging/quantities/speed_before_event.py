@@ -78,8 +78,9 @@ class SpeedBeforeEvent(OfEvent):
         done, event = context.events.done_tick(before), context.events.event(before)
         other = None if event is None else event.action
         rules = self.event_tolerances.actions
-        own = isinstance(other, AgentAction) and other.agent == action.agent
-        if done is None or rules is None or not own or other.do not in ('brake', 'yield'):
+        if done is None or rules is None or not isinstance(other, AgentAction):
+            return done
+        if other.agent != action.agent or other.do not in ('brake', 'yield'):
             return done
         speed = motion.speed(context.view, context.view.body(action.agent))
         return first_tick(speed < rules.stop_mps, done)
