@@ -16,11 +16,13 @@ from aurora_core.parsing.doubts.roles import deeds
 from aurora_core.parsing.llm.actors import may_mean
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import (
+    AgentReading,
     ConditionReading,
     EventReading,
     MissionReading,
     Number,
     Reading,
+    UavReading,
 )
 from aurora_core.spec.parameter import Bound
 
@@ -69,7 +71,8 @@ def _check_message(
     action = event.action
     if action is None or action.do != 'send_message':
         return
-    actors = {one.id: one for one in (*reading.agents, *reading.uavs)}
+    bodies: tuple[AgentReading | UavReading, ...] = (*reading.agents, *reading.uavs)
+    actors = {one.id: one for one in bodies}
     sender, receiver = actors.get(action.subject), actors.get(action.receiver or '')
     if sender is None or receiver is None:
         return
