@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from aurora_core.errors import VerificationError
 from aurora_core.geometry.kernel import norm2
-from aurora_core.judging.build import Inputs, Source, number
+from aurora_core.judging.build import Inputs, Source, Underivable, number
 from aurora_core.judging.quantities import (
     angle_swept,
     horizontal_distance,
@@ -36,7 +36,7 @@ SIZE_GUARD_M = 1e-3
 
 def route_conditions(
     inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
-) -> Iterator[Condition]:
+) -> Iterator[Condition | Underivable]:
     """Yield the conditions of a navigate mission.
 
     Raises:
@@ -73,9 +73,13 @@ def route_conditions(
 
 def _extents(
     inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
-) -> Iterator[Condition]:
+) -> Iterator[Condition | Underivable]:
     """Yield that the flown pattern is as long and as wide as the prompt states."""
     if mission.size_m is None or mission.pattern not in _SIZED:
+        return
+    width = mission.size_m[1]
+    if mission.pattern is Pattern.LINE and width.value > 0.0:
+        yield Underivable(element=mission.id, what='width of a line', span=width.span)
         return
     axes = _axes(mission.size_m, arguments.waypoints)
     for side, size, axis in zip(('length', 'width'), mission.size_m, axes, strict=True):
@@ -122,7 +126,8 @@ def _check_size(mission: UavMission, arguments: MissionArguments) -> None:
     if mission.size_m is None or mission.pattern not in (Pattern.RECTANGLE, Pattern.LINE):
         return
     legs = [norm2(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(arguments.waypoints)]
-    for parameter in mission.size_m:
+    sides = mission.size_m[:1] if mission.pattern is Pattern.LINE else mission.size_m
+    for parameter in sides:
         if parameter.provenance is not Provenance.EXPLICIT or parameter.value == 0.0:
             continue
         if all(abs(leg - parameter.value) > SIZE_GUARD_M for leg in legs):

@@ -26,6 +26,9 @@ _SHORT_M = 1.0
 # One goes round these, or to and fro.
 REPEATED = frozenset({Pattern.RECTANGLE, Pattern.ORBIT, Pattern.LINE})
 
+# A lap of which rounding leaves so little out is a whole one (m).
+_EXACT_M = 1e-6
+
 
 class Laps:
     """Plans how often a route is flown.
@@ -138,7 +141,7 @@ def _up_to(way: Sequence[Point3], length_m: float) -> tuple[Point3, ...]:
     found, left_m = [way[0]], length_m
     for a, b in pairwise(way):
         leg_m = norm2(b[0] - a[0], b[1] - a[1])
-        if left_m < leg_m:
+        if left_m < leg_m - _EXACT_M:
             if left_m > _SHORT_M:
                 share = left_m / leg_m
                 found.append((a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2]))

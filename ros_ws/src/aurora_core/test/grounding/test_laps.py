@@ -91,6 +91,19 @@ def test_one_lap_is_flown_however_short_the_time() -> None:
         assert way == lap(Pattern.ORBIT)
 
 
+@pytest.mark.parametrize('radius_m', [20.0, 37.0, 60.0, 83.3])
+@pytest.mark.parametrize('middle', [(160.0, 366.0), (-412.7, 90.1)])
+def test_one_lap_ends_where_it_began(radius_m: float, middle: tuple[float, float]) -> None:
+    points = pattern_points(
+        Pattern.ORBIT, length_m=0.0, width_m=0.0, radius_m=radius_m, waypoint_count=0
+    )
+    assert points is not None
+    east, north = middle
+    ring = tuple((x + east, y + north, 30.0) for x, y in points)
+    way, _ = LAPS.lasting(ring, 6.0, 5.0, keeps_speed=True)
+    assert has_shape(Pattern.ORBIT, way)
+
+
 def test_laps_that_leave_the_first_one_are_another_shape() -> None:
     way, _ = LAPS.lasting(lap(Pattern.RECTANGLE), 5.0, 200.0, keeps_speed=True)
     off = (way[-1][0] + 1.0, way[-1][1] + 1.0, way[-1][2])
