@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from aurora_core.conditions.derive import Derivation, derive_conditions
+from aurora_core.judging.quantities.speed import Speed, SpeedAfterMoving
 from aurora_core.judging.quantities.visible_time import VisibleTime
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Span, Unit
@@ -181,7 +182,7 @@ def test_what_is_asked_of_several_is_asked_of_each_all_along(tb: ModuleType) -> 
 def test_who_is_never_to_be_slower_is_so_once_it_has_been_as_fast(tb: ModuleType) -> None:
     mps = {'value': tb.number(9.0, Unit.METRE_PER_SECOND)}
     (made,) = _stated(_derive(tb, tb.tailgate_case(), 'speed', ('van1',), op='>=', **mps))
-    assert made.arguments.kind == 'speed_after_moving'
+    assert isinstance(made.arguments, SpeedAfterMoving)
     assert made.arguments.moving_mps == 9.0
     assert 'from when it is first driven on' in made.sentence
     (held,) = _stated(
@@ -195,4 +196,4 @@ def test_who_is_never_to_be_slower_is_so_once_it_has_been_as_fast(tb: ModuleType
             **mps,
         )
     )
-    assert held.arguments.kind == 'speed'
+    assert isinstance(held.arguments, Speed)

@@ -104,7 +104,8 @@ def _condition(spec: ScenarioSpec, clause: Clause) -> bool:
 
 def _of_bodies(spec: ScenarioSpec, clause: Clause) -> bool:
     """A distance of bodies, if any: `100 m apart` is none to the place that one is over."""
-    bodies = {one.id for one in (*spec.agents, *spec.uavs)} | {a.group for a in spec.agents}
+    bodies = {name for a in spec.agents for name in (a.id, a.group)}
+    bodies |= {uav.id for uav in spec.uavs}
     return all(set(c.of) <= bodies for c in spec.conditions if c.id in clause.ids)
 
 
