@@ -130,6 +130,13 @@ class _When:
     mission: MissionArguments | None = None
     missions: tuple[MissionArguments, ...] = ()
 
+    @property
+    def told(self) -> str:
+        """When that is, where it is not all along: a UAV is on its way before and after."""
+        where = {Window.PHASE: f' in {getattr(self.mission, "mission", "")}'}
+        where[Window.ON_MISSION] = ' on mission'
+        return f'{where[self.window]} from capture on' if self.window in where else ''
+
 
 def _when(inputs: Inputs, stated: StatedCondition, missions: tuple[UavMission, ...]) -> _When:
     if stated.quantity in _IN_THE_AIR:
@@ -183,7 +190,7 @@ def _series(inputs: Inputs, stated: StatedCondition, suffix: str = '') -> Condit
         when = _when(inputs, stated, missions_of(inputs, stated))
     return condition(
         id=f'{stated.id}.holds{suffix}',
-        sentence=sentence_of(stated),
+        sentence=f'{sentence_of(stated)}{when.told}',
         of=of,
         target=target,
         arguments=kind(

@@ -74,7 +74,7 @@ def said_back(spec: ScenarioSpec) -> tuple[ElementReport, ...]:
         *_flights(spec.missions),
         *(_link(link) for link in spec.links if _stated(link)),
         *(ElementReport(id=e.id, text=_event(e)) for e in spec.events),
-        *(ElementReport(id=c.id, text=_condition(c)) for c in spec.conditions),
+        *(ElementReport(id=c.id, text=_condition(c, spec)) for c in spec.conditions),
         *(ElementReport(id=o.id, text=_order(o)) for o in spec.orders),
         *(ElementReport(id=c.id, text=_count(c)) for c in spec.counts),
         *(ElementReport(id=p.id, text=_forbidden(p)) for p in spec.prohibitions),
@@ -84,6 +84,8 @@ def said_back(spec: ScenarioSpec) -> tuple[ElementReport, ...]:
 # --- numbers -------------------------------------------------------------------------------------
 
 _BOUNDS = {Bound.EXACTLY: '', Bound.AT_LEAST: 'at least ', Bound.AT_MOST: 'at most '}
+# Of a UAV these count from where its missions begin to where they end.
+_FLOWN = frozenset({'altitude', 'distance', 'horizontal_distance', 'separation', 'speed'})
 # Quantities of which 1 says that it is so.
 _YES_OR_NO = frozenset(
     {
@@ -314,7 +316,7 @@ def _action(action: EventAction) -> str:
 # --- requirements --------------------------------------------------------------------------------
 
 
-def _condition(stated: StatedCondition) -> str:
+def _condition(stated: StatedCondition, spec: ScenarioSpec | None = None) -> str:
     whom = ' and '.join(map(_place, stated.of))
     unit = '' if stated.value.unit is Unit.ONE else f' {stated.value.unit.value}'
     text = f'{stated.quantity.replace("_", " ")} of {whom}'
@@ -326,7 +328,9 @@ def _condition(stated: StatedCondition) -> str:
         text += f', by {_number(stated.by_s)}'
     if stated.fraction is not None:
         text += f', for {_number(stated.fraction)} of the time'
-    return text
+    uavs = set() if spec is None else {mission.uav for mission in spec.missions}
+    flown = stated.quantity in _FLOWN and bool(uavs & set(stated.of))
+    return f'{text}, on mission from capture on' if flown and not stated.by_s else text
 
 
 def _order(order: Order) -> str:

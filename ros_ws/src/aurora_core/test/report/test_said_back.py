@@ -52,7 +52,7 @@ def _said(prompt: str) -> dict[str, ElementReport]:
         (
             'Two drones hover over City Hall at 40 m and 60 m and stay at least 15 m apart.',
             'c1',
-            'separation of uav1 and uav2: at least 15 m',
+            'separation of uav1 and uav2: at least 15 m, on mission from capture on',
             '',
         ),
         (
