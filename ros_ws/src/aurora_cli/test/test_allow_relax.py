@@ -14,8 +14,8 @@ import pytest
 
 Call = Callable[..., SimpleNamespace]
 
-# Whoever comes from 45 m behind is not within 30 m all along: the trace says how far it was.
-ASKED = 'A van follows the ego car 45 m behind it. The van stays within 30 m of the ego car.'
+# Whoever waits 45 m behind is not within 30 m: the trace says how far it was.
+ASKED = 'A van waits 45 m behind the ego car. The van stays within 30 m of the ego car.'
 
 
 def _run(call: Call, *options: str) -> dict[str, Any]:

@@ -77,6 +77,7 @@ class Turn(Quantity):
         assert self.place is not None
         reach_m = (self.near_m or 0.0) + view.body(name).entry.length_m / 2.0
         near = motion.horizontal_distance(view, name, self.place, on_road=True) <= reach_m
-        last = np.maximum.accumulate(np.where(near, np.arange(len(near)), -len(near)))
-        found: BoolArray = np.arange(len(near)) - last <= whole_ticks(self.within_s, view.dt_s)
+        ticks = whole_ticks(self.within_s, view.dt_s)
+        last = np.maximum.accumulate(np.where(near, np.arange(len(near)), -ticks - 1))
+        found: BoolArray = np.arange(len(near)) - last <= ticks
         return found
