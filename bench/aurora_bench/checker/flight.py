@@ -127,7 +127,8 @@ def _leg_speed(
     best, why = 0.0, 'no leg is long enough to reach the speed'
     # How fast the UAV speeds up is not recorded: short distances are tried, then longer ones.
     for gain_mps2 in (3.0, 1.5, 0.75):
-        free = moving & (to_turn > asked.value**2 / (2.0 * gain_mps2))
+        # What counts begins where the slowest speed that does can be reached.
+        free = moving & (to_turn > max(low, 0.0) ** 2 / (2.0 * gain_mps2))
         if free.sum() * scene.dt_s < 1.0:
             continue
         good = share((speed[free] >= low) & (speed[free] <= high))

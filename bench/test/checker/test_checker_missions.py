@@ -304,6 +304,27 @@ def test_a_rectangle_is_centred_on_its_place(make_stage: Any) -> None:
         assert stage.says(asked) == outcome
 
 
+@pytest.mark.parametrize(('top', 'outcome'), [(17.3, 'holds'), (15.0, 'does_not')])
+def test_a_leg_counts_where_the_slowest_speed_can_be_reached(
+    stage: Any, top: float, outcome: str
+) -> None:
+    """200 m at 1.5 m/s^2: 18 m/s are never reached, 16.2 m/s, which count, are for 25 m."""
+
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        gain_s = top / 1.5
+        even_s = 200.0 / top - gain_s
+        gains = np.full(50, gain_s / 50)
+        marks = 15.0 + np.cumsum([0.0, *gains, even_s, *gains])
+        speeds = np.interp(marks - 15.0, [0.0, gain_s, gain_s + even_s], [0.0, top, top])
+        speeds = np.minimum(speeds, 1.5 * (marks[-1] - marks))
+        way = np.concatenate([[0.0], np.cumsum((speeds[1:] + speeds[:-1]) / 2.0 * np.diff(marks))])
+        return np.interp(t, marks, way), 0.0 * t, 40.0
+
+    stage.uav('drone', motion, ends=(58.0,))
+    line = {**RECTANGLE, 'pattern': 'line', 'size_m': [200, 0], 'speed_mps': 18}
+    assert stage.says(line) == outcome
+
+
 @pytest.mark.parametrize(('speed', 'outcome'), [(9.2, 'holds'), (10.8, 'holds'), (12, 'does_not')])
 def test_the_legs_are_flown_at_the_speed(stage: Any, speed: float, outcome: str) -> None:
     _flies(stage, [(0, 0), (120, 0), (120, 80), (0, 80), (0, 0)], speed)
