@@ -23,25 +23,39 @@ from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.spec.scenario import ScenarioSpec
 
 PROMPT = 'A drone tracks a truck.'
+Ground = Callable[..., GroundedScenario | GroundingFailure]
 With = Callable[[SpawnTable | None], GroundedScenario | GroundingFailure]
 
 
 @pytest.fixture
-def ground_with(
+def ground_on(
     map_of: Callable[[str], MapModel],
     agent_types: Mapping[str, AgentTypeRecord],
     limits: Limits,
     tolerances: Tolerances,
     settings: Settings,
     read_prompt: Callable[..., ScenarioSpec],
-) -> With:
-    def ground(spawns: SpawnTable | None) -> GroundedScenario | GroundingFailure:
+) -> Ground:
+    """Ground a prompt on a map with records of it."""
+
+    def ground(
+        map_name: str,
+        prompt: str,
+        *,
+        spawns: SpawnTable | None = None,
+        walks: WalkTable | None = None,
+    ) -> GroundedScenario | GroundingFailure:
         grounder = Grounder(
-            map_of('junction'), agent_types, limits, tolerances, settings, spawns=spawns
+            map_of(map_name), agent_types, limits, tolerances, settings, spawns=spawns, walks=walks
         )
-        return grounder.ground(read_prompt(PROMPT, 'junction'), 1)
+        return grounder.ground(read_prompt(prompt, map_name), 1)
 
     return ground
+
+
+@pytest.fixture
+def ground_with(ground_on: Ground) -> With:
+    return lambda spawns: ground_on('junction', PROMPT, spawns=spawns)
 
 
 def _table(model: MapModel, type_name: str, *refused: str) -> SpawnTable:
@@ -100,23 +114,15 @@ def test_nobody_is_placed_where_its_type_was_refused(
 
 
 def test_nobody_crosses_where_nobody_gets_over(
-    map_of: Callable[[str], MapModel],
-    agent_types: Mapping[str, AgentTypeRecord],
-    limits: Limits,
-    tolerances: Tolerances,
-    settings: Settings,
-    read_prompt: Callable[..., ScenarioSpec],
+    map_of: Callable[[str], MapModel], ground_on: Ground
 ) -> None:
     model = map_of('downtown')
-    spec = read_prompt(
-        'A pedestrian crosses at the crosswalk while a drone hovers over it at 30 m.'
-    )
+    prompt = 'A pedestrian crosses at the crosswalk while a drone hovers over it at 30 m.'
 
     def begins(blocked: str = '', *, crossings: bool = True) -> str:
         shut = {} if crossings else {crossing.id: 0.0 for crossing in model.network.crossings}
         walks = WalkTable(sidewalk_s={blocked: 0.0}, crossing_s=shut)
-        grounder = Grounder(model, agent_types, limits, tolerances, settings, walks=walks)
-        found = grounder.ground(spec, 1)
+        found = ground_on('downtown', prompt, walks=walks)
         if isinstance(found, GroundingFailure):
             return found.reason
         return found.agents[0].lane_id
@@ -127,22 +133,16 @@ def test_nobody_crosses_where_nobody_gets_over(
 
 
 def test_traffic_and_free_vehicles_leave_a_refused_lane(
-    map_of: Callable[[str], MapModel],
-    agent_types: Mapping[str, AgentTypeRecord],
-    limits: Limits,
-    tolerances: Tolerances,
-    settings: Settings,
-    read_prompt: Callable[..., ScenarioSpec],
+    map_of: Callable[[str], MapModel], ground_on: Ground
 ) -> None:
     model = map_of('downtown')
-    spec = read_prompt(
+    prompt = (
         'Traffic is light. A drone hovers over the ego car at 60 m while six background cars '
         'circulate.'
     )
 
     def lanes(spawns: SpawnTable | None) -> list[str]:
-        grounder = Grounder(model, agent_types, limits, tolerances, settings, spawns=spawns)
-        found = grounder.ground(spec, 1)
+        found = ground_on('downtown', prompt, spawns=spawns)
         assert isinstance(found, GroundedScenario)
         return [agent.lane_id for agent in found.agents]
 
@@ -154,20 +154,14 @@ def test_traffic_and_free_vehicles_leave_a_refused_lane(
 
 
 def test_oncoming_vehicles_are_where_the_records_have_the_other_direction(
-    map_of: Callable[[str], MapModel],
-    agent_types: Mapping[str, AgentTypeRecord],
-    limits: Limits,
-    tolerances: Tolerances,
-    settings: Settings,
-    read_prompt: Callable[..., ScenarioSpec],
+    map_of: Callable[[str], MapModel], ground_on: Ground
 ) -> None:
     model = map_of('downtown')
-    spec = read_prompt('A drone tracks a bus. A van comes towards the bus in the oncoming lane.')
+    prompt = 'A drone tracks a bus. A van comes towards the bus in the oncoming lane.'
     measured = _table(model, 'bus')
 
     def found(spawns: SpawnTable | None) -> GroundedScenario | GroundingFailure:
-        grounder = Grounder(model, agent_types, limits, tolerances, settings, spawns=spawns)
-        return grounder.ground(spec, 1)
+        return ground_on('downtown', prompt, spawns=spawns)
 
     usual = found(measured)
     assert isinstance(usual, GroundedScenario)
@@ -182,22 +176,16 @@ def test_oncoming_vehicles_are_where_the_records_have_the_other_direction(
 
 
 def test_further_groups_leave_a_refused_lane(
-    map_of: Callable[[str], MapModel],
-    agent_types: Mapping[str, AgentTypeRecord],
-    limits: Limits,
-    tolerances: Tolerances,
-    settings: Settings,
-    read_prompt: Callable[..., ScenarioSpec],
+    map_of: Callable[[str], MapModel], ground_on: Ground
 ) -> None:
     model = map_of('downtown')
-    spec = read_prompt(
+    prompt = (
         'The truck is 30 m before the intersection. The bus is 20 m before the hospital. '
         'A drone tracks the truck.'
     )
 
     def lanes(spawns: SpawnTable) -> dict[str, str]:
-        grounder = Grounder(model, agent_types, limits, tolerances, settings, spawns=spawns)
-        found = grounder.ground(spec, 1)
+        found = ground_on('downtown', prompt, spawns=spawns)
         assert isinstance(found, GroundedScenario)
         return {agent.id: agent.lane_id for agent in found.agents}
 

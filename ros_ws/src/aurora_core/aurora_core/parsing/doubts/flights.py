@@ -136,8 +136,8 @@ def flights_over_nothing(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[
             continue
         for clause in spec.clauses:
             verbs = [a for a in within(atoms, clause.span) if a.kind is AtomKind.VERB]
-            flies = bool(verbs) and verbs[0].words.startswith(('flies', 'fly', 'flying'))
-            if flies and mission.id in clause.ids and clause.status is ClauseStatus.ENCODED:
+            flies = bool(verbs) and verbs[0].key == 'fly' and mission.id in clause.ids
+            if flies and clause.status is ClauseStatus.ENCODED:
                 yield clause.span
 
 
