@@ -57,6 +57,10 @@ _COUNTED = frozenset(
     {AtomKind.LINK, AtomKind.MESSAGE, AtomKind.PATTERN, AtomKind.ROUTE, AtomKind.THING}
 )
 _MULTIPLES = frozenset({'once', 'twice', 'thrice'})
+# What two stated values may give: the end of what begins at one and lasts for the other, the
+# distance from the middle of a zone; of a speed, what is left of one that is stated elsewhere.
+_WORKED_OUT = frozenset({'condition_time', 'link_outage', 'trigger_distance', 'trigger_time'})
+_LEFT_OF = frozenset({'ground_speed'})
 # What is triggered, or demanded, of what a number says elsewhere.
 _OF_WHAT_IS_SAID = frozenset(
     {
@@ -238,8 +242,11 @@ class StatedNumbers:
     def _derived(self, name: str, number: Number) -> Parameter | None:
         """Return a value that two stated ones give: cut at 40 s for 5 s, so until 45 s.
 
-        It has no other value in its domain, as they have none, and it accounts for them.
+        It has no other value in its domain, as they have none, and it accounts for them. Heights
+        and lengths are not worked out: that of two stated ones would lose both.
         """
+        if name not in _WORKED_OUT | _LEFT_OF:
+            return None
         fits = [m for m in self._facts.measures if values.accepts(name, m)]
         for one, other in permutations(fits, 2):
             value = next(
@@ -251,7 +258,7 @@ class StatedNumbers:
                 None,
             )
             free = [m for m in (one, other) if (m.start, 0) not in self._claimed]
-            if value is None or not free:
+            if value is None or not free or (name in _LEFT_OF and len(free) > 1):
                 continue
             for measure in free:
                 self._claimed[measure.start, 0] = 'condition_time'

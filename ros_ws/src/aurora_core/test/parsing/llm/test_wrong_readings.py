@@ -212,3 +212,27 @@ def test_words_that_nothing_carries_are_admitted_and_not_forced() -> None:
         c.text for c in judgement.outcome.clauses if c.status is ClauseStatus.NOT_ENCODED
     }
     assert {'all vehicles', 'below 5 m/s'} <= open_words
+
+
+@pytest.mark.parametrize(
+    ('words', 'field', 'value', 'unit'),
+    [
+        ('at 30 m and then at 20 m', 'altitude_m', 50.0, 'm'),
+        ('for 20 s and then for 40 s', 'duration_s', 60.0, 's'),
+    ],
+)
+def test_two_stated_values_do_not_become_their_sum(
+    words: str, field: str, value: float, unit: str
+) -> None:
+    prompt = f'A drone tracks a bus {words}.'
+    number = {'value': value, 'unit': unit, 'provenance': 'inferred'}
+    mission = {'id': 'm1', 'uav': 'uav1', 'mode': 'track', 'target': 'bus1', field: number}
+    answer: Answer = {
+        'agents': [{'id': 'bus1', 'type': 'bus', 'quote': 'a bus'}],
+        'uavs': [{'id': 'uav1', 'quote': 'A drone'}],
+        'missions': [{**mission, 'quote': 'tracks a bus'}],
+        'clauses': [{'quote': prompt, 'status': 'encoded', 'ids': ['m1', 'bus1']}],
+    }
+    judgement = judge(json.dumps(answer), PromptFacts(prompt, CONTEXT))
+    assert judgement.outcome is None
+    assert len([c for c in judgement.complaints if 'the prompt states' in c]) == 2
