@@ -65,9 +65,15 @@ class Caller:
         self._actions: dict[str, ThreadedActionClient] = {}
 
     def prepare(self, *calls: Call) -> None:
-        """Create clients ahead of the first call, so that discovery costs nothing later."""
-        self._guarded += calls
+        """Create clients ahead of the first call, so that discovery costs nothing later.
+
+        What has a client keeps that one: of dozens for one action a server answered the last one
+        no more, whose endpoints the middleware had not matched.
+        """
         for call in calls:
+            if call.name in self._actions or call.name in self._services:
+                continue
+            self._guarded.append(call)
             if call.is_action:
                 self._actions[call.name] = ThreadedActionClient(
                     self._node, call.type, call.name, callback_group=self._group

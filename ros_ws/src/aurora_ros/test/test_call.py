@@ -174,6 +174,13 @@ def test_a_goal_is_offered_again_while_the_server_ends_another() -> None:
     assert (result.ticks, server.refused) == (7, 3)
 
 
+def test_many_goals_are_sent_by_one_client() -> None:
+    with own_domain() as domain, slow_server(domain, kind=BusyServer), partner(domain) as play:
+        for _ in range(3):
+            play.send_goal(on.EXECUTE, ExecuteScenario.Goal(), 20.0, busy_s=15.0)
+        assert play.node.count_subscribers(f'{on.EXECUTE.name}/_action/feedback') == 1
+
+
 @pytest.mark.parametrize(('working_s', 'is_answered'), [(30.0, True), (0.0, False)])
 def test_an_answer_is_waited_for_beyond_the_limit_while_its_work_goes_on(
     working_s: float, is_answered: bool
