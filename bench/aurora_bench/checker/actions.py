@@ -89,7 +89,7 @@ def ground_action(
         case 'start':
             return _start(case, agent, window, speed)
         case 'change_lane':
-            return _change_lane(case, agent, window)
+            return _change_lane(case, agent, window, action.get('side'))
         case 'cross':
             return _cross(case, agent, window)
         case 'yield':
@@ -390,12 +390,12 @@ def _start(case: Case, agent: str, window: Window, value: float | None) -> Acted
     return Acted(holds(f'{agent} starts at {start:.2f} s, {what} by {done:.2f} s'), start, done)
 
 
-def _change_lane(case: Case, agent: str, window: Window) -> Acted:
-    changes = lane_changes(case, agent)
+def _change_lane(case: Case, agent: str, window: Window, side: str | None) -> Acted:
+    changes = lane_changes(case, agent, side)
     first, last = _ticks(case, window)
     # The way across the lane takes its time: the onset shows before the body is over the line.
     reach = 0 if window.free else round(5.0 / case.scene.dt_s)
-    for tick, held in changes:
+    for tick, held, _ in changes:
         if first <= tick <= last + reach:
             time = float(case.scene.times[tick])
             why = f'{agent} is on another lane at {time:.2f} s'
@@ -403,8 +403,8 @@ def _change_lane(case: Case, agent: str, window: Window) -> Acted:
             kept = min(time + limits.LANE_HELD_S, case.scene.end_s)
             judged = graded(held, not held and _at_end(case, tick), why)
             return Acted(judged, time, kept, done_from_s=time)
-    seen = [round(float(case.scene.times[t]), 1) for t, _ in changes]
-    return _never(case, window, f'{agent} does not change lane (changes at {seen} s)')
+    seen = [f'{case.scene.times[c.tick]:.1f} s {c.side}' for c in lane_changes(case, agent)]
+    return _never(case, window, f'{agent} does not change lane as asked (changes: {seen})')
 
 
 def _at_end(case: Case, tick: int) -> bool:

@@ -84,9 +84,9 @@ def _kind(case: Case, requirement: Requirement, body: str) -> Judged:
         case 'cross':
             return _crosses(case, body, targets)
         case 'change_lane':
-            found = lane_changes(case, body)
-            held = any(h for _, h in found)
-            seen = [round(float(case.scene.times[t]), 1) for t, _ in found]
+            found = lane_changes(case, body, requirement.get('side'))
+            held = any(one.held for one in found)
+            seen = [round(float(case.scene.times[one.tick]), 1) for one in found]
             return graded(held, bool(found), f'{body} changes lane at {seen} s')
         case 'turn_left' | 'turn_right':
             return _turns(case, body, 1.0 if kind == 'turn_left' else -1.0, targets)

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -16,21 +16,29 @@ from aurora_bench.checker.paths import lane_of, offset
 from aurora_bench.checker.scene import runs_of
 
 
-def lane_changes(case: Case, agent: str) -> list[tuple[int, bool]]:
-    """Return the ticks at which a vehicle came onto a lane beside its own; did it stay 2 s?"""
+class LaneChanged(NamedTuple):
+    """A vehicle came onto a lane beside its own: when, did it stay 2 s, and to which side."""
+
+    tick: int
+    held: bool
+    side: str
+
+
+def lane_changes(case: Case, agent: str, side: str | None = None) -> list[LaneChanged]:
+    """Return the changes of lane of a vehicle; `side`: those to the left, or right, alone."""
     key = ('lanes', agent)
     if key not in case.scene.memory:
         case.scene.memory[key] = _lane_changes(case, agent)
     found = case.scene.memory[key]
     assert isinstance(found, list)
-    return found
+    return [one for one in found if side in (None, one.side)]
 
 
-def _lane_changes(case: Case, agent: str) -> list[tuple[int, bool]]:
+def _lane_changes(case: Case, agent: str) -> list[LaneChanged]:
     scene = case.scene
     xy, heading = scene.xy(agent), scene.heading(agent)
     step = max(1, round(0.2 / scene.dt_s))
-    found: list[tuple[int, bool]] = []
+    found: list[LaneChanged] = []
     current = None
     held = round(limits.LANE_HELD_S / scene.dt_s)
     present = scene.present(agent)
@@ -54,7 +62,8 @@ def _lane_changes(case: Case, agent: str) -> list[tuple[int, bool]]:
                         or not 0.0 < offset(current, xy[t])[0] < length
                         for t in range(tick, min(tick + held, len(xy)), step)
                     )
-                    found.append((tick, stay and tick + held < len(xy)))
+                    side = 'left' if lateral > 0.0 else 'right'
+                    found.append(LaneChanged(tick, stay and tick + held < len(xy), side))
         current = lane_of(scene, xy[tick], heading[tick])
     return found
 

@@ -58,6 +58,7 @@ class BehaviorFact:
     kind: BehaviorKind
     target: str | None = None
     speed_mps: Parameter | None = None
+    side: str | None = None
 
 
 def placement_facts(spec: ScenarioSpec) -> Iterator[PlacementFact]:
@@ -94,7 +95,13 @@ def behavior_facts(spec: ScenarioSpec) -> Iterator[BehaviorFact]:
     """Return behaviours, what events make agents do, and following said as a placement."""
     for agent in spec.agents:
         for b in agent.behaviors:
-            yield BehaviorFact(agent=agent.id, kind=b.kind, target=b.target, speed_mps=b.speed_mps)
+            yield BehaviorFact(
+                agent=agent.id,
+                kind=b.kind,
+                target=b.target,
+                speed_mps=b.speed_mps,
+                side=b.side,
+            )
         for p in agent.placements:
             if p.kept_in_motion and p.relation is Relation.BEHIND:
                 yield BehaviorFact(agent=agent.id, kind=BehaviorKind.FOLLOW, target=p.of)
@@ -107,4 +114,5 @@ def behavior_facts(spec: ScenarioSpec) -> Iterator[BehaviorFact]:
                 agent=action.agent,
                 kind=BEHAVIOR_OF_ACTION[action.do],
                 speed_mps=action.value_mps,
+                side=action.side,
             )

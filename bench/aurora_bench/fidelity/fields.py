@@ -132,6 +132,7 @@ def placement_fields(r: PlacementRequirement, subject: Subject, rule: NumberRule
 def behavior_fields(r: BehaviorRequirement, subject: Subject, rule: NumberRule) -> Fields:
     """Compare a behaviour with everything that the agent does."""
     names = ['behavior', *_named(r.target, 'target'), *_numbers(r, 'speed_mps')]
+    names += _named(r.side, 'side')
 
     def compare(fact: BehaviorFact) -> Fields:
         fields = {'behavior': fact.kind is r.behavior}
@@ -139,6 +140,8 @@ def behavior_fields(r: BehaviorRequirement, subject: Subject, rule: NumberRule) 
             fields['target'] = subject.binding.means(r.target, fact.target)
         if r.speed_mps is not None:
             fields['speed_mps'] = rule.counts('speed_mps', r.speed_mps, fact.speed_mps)
+        if r.side is not None:
+            fields['side'] = fact.side == r.side
         return fields
 
     return for_all(
@@ -261,7 +264,7 @@ _READ: dict[str, frozenset[str]] = {
     'agent': frozenset({'ref', 'type', 'count', 'role'}),
     'uav': frozenset({'ref', 'count'}),
     'placement': frozenset({'agent', 'relation', 'of', 'distance_m', 'bearing_deg'}),
-    'behavior': frozenset({'agent', 'behavior', 'target', 'speed_mps'}),
+    'behavior': frozenset({'agent', 'behavior', 'target', 'speed_mps', 'side'}),
     'mission': frozenset(
         {'ref', 'uav', 'mode', 'target', 'pattern', 'side', 'size_m', *_MISSION_NUMBERS}
     ),

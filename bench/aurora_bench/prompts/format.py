@@ -123,6 +123,7 @@ class BehaviorRequirement(_Requirement):
     behavior: BehaviorKind
     target: Ref | None = None
     speed_mps: FiniteFloat | None = None
+    side: Literal['left', 'right'] | None = None  # of the lane that change_lane goes to
 
 
 class UavRequirement(_Requirement):
@@ -272,6 +273,8 @@ def fields_of_action(do: str) -> frozenset[str]:
         return frozenset({'uav'})
     if do == 'hand_over':
         return frozenset({'uav', 'to'})
+    if do == 'change_lane':
+        return frozenset({'agent', 'value_mps', 'side'})
     return frozenset({'agent', 'value_mps'})
 
 

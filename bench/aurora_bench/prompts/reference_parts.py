@@ -140,7 +140,9 @@ def behavior(r: BehaviorRequirement, names: Names, numbers: Numbers) -> Doc:
     several = r.target is not None and len(names.all(r.target)) > 1
     if numbers.are_judged and several and r.behavior in _TOWARDS_ONE:
         raise NotExpressibleError(f'{r.behavior} of several')
-    return {'kind': r.behavior, 'target': names.one(r.target), **numbers.of(r, ('speed_mps',))}
+    side = {} if r.side is None else {'side': r.side}
+    stated = numbers.of(r, ('speed_mps',))
+    return {'kind': r.behavior, 'target': names.one(r.target), **stated, **side}
 
 
 def behaviors(r: BehaviorRequirement, names: Names, numbers: Numbers) -> list[Doc]:
@@ -285,9 +287,9 @@ def _action(a: Action, event_id: str, names: Names, numbers: Numbers) -> Doc:
             return found | {'mission': f'{event_id}_mission'}
         given = numbers.of(a, ('altitude_m',), 'action.')
         return found | ({'altitude_m': default('altitude_m')} if a.do == 'ascend' else {}) | given
-    return {
-        'do': a.do, 'agent': names.agent(a.agent), **numbers.of(a, ('value_mps',), 'action.')
-    }  # fmt: skip
+    side = {} if a.side is None else {'side': a.side}
+    stated = numbers.of(a, ('value_mps',), 'action.')
+    return {'do': a.do, 'agent': names.agent(a.agent), **stated, **side}
 
 
 def condition(r: ConditionRequirement, ident: str, names: Names, numbers: Numbers) -> Doc:

@@ -170,6 +170,9 @@ def test_change_of_lane_is_held(
         )
     stage.drive('car1', 'car', 4.0, y=lateral)
     assert stage.says(_event(AT_20, _does('change_lane'))) == outcome
+    assert stage.says(_event(AT_20, _does('change_lane', side='right'))) == outcome
+    to_left = 'does_not' if back is None else 'holds'  # it goes back to the left, and stays
+    assert stage.says(_event(AT_20, _does('change_lane', side='left'))) == to_left
 
 
 def _walker(stage: Any, start: float, end_y: float = 5.0) -> None:

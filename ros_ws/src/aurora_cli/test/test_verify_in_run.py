@@ -102,6 +102,20 @@ def test_each_run_is_the_one_of_its_own_folder(
         assert (found.code, found.integrity, found.doubts) == (code, 'intact', [])
 
 
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A drone tracks a van. After 10 s the van changes to the left lane.',
+        'A car overtakes a truck. A drone tracks the truck.',
+    ],
+)
+def test_a_run_with_changes_of_lane_is_the_one_of_its_bag(
+    prompt: str, finished: SimpleNamespace, call: Call
+) -> None:
+    answer = said(call, str(made(finished, prompt)))
+    assert (answer.code, answer.doubts) == (0, [])
+
+
 @pytest.mark.parametrize('name', ['bag.1', 'bag.0'])
 def test_a_verified_bag_in_the_folder_of_a_failed_run_is_no_pass(
     here: Path, finished: SimpleNamespace, failed: Path, call: Call, name: str

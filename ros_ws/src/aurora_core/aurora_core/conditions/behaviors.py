@@ -424,6 +424,9 @@ def _implied(
                 update={'place': behavior.target, 'near_m': t.arrival_m}
             )
             where = f' at {behavior.target}'
+        if isinstance(measured, LaneChange) and behavior.side is not None:
+            measured = measured.model_copy(update={'side': behavior.side})
+            where = f', the one on its {behavior.side.value}'
         yield condition(
             id=f'{name}{row.part}',
             sentence=f'{row.says(agent.id, other, t)}{where}',

@@ -284,7 +284,7 @@ class EventRunner:
             complete = has_crossed(state, action.agent, seen)
         elif state.lane is not None:
             row = self._roster.agent_index(action.agent)
-            complete = row is not None and self._lanes.is_over(row, state.lane, seen)
+            complete = row is not None and self._lanes.is_over(row, state.lane, seen, action.side)
         else:
             complete = is_complete(action, state.before_mps, speed_mps, self._rules)
         if complete:
@@ -303,7 +303,7 @@ class EventRunner:
         if not isinstance(action, AgentAction) or action.do != 'change_lane':
             return True
         row = self._roster.agent_index(action.agent)
-        return row is not None and self._lanes.goal(row, seen) is not None
+        return row is not None and self._lanes.goal(row, seen, side=action.side) is not None
 
     def _begins(
         self,
@@ -421,7 +421,7 @@ class EventRunner:
         if now_mps is None:
             return []
         if action.do == 'change_lane':
-            goal = self._lanes.goal(row, seen)
+            goal = self._lanes.goal(row, seen, side=action.side)
             return [] if goal is None else self._lanes.commands(row, goal)
         goal_mps = commanded_mps(action, now_mps, self._rules)
         if goal_mps is None:

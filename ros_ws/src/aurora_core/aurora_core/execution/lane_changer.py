@@ -14,10 +14,12 @@ from aurora_core.quantities.lane_changes import (
     CENTRED_M,
     LANE_CHANGE_S,
     can_change,
+    is_to_side,
     lanes_beside,
     other_lane,
 )
 from aurora_core.quantities.lanes import lanes_of_rows, off_lane_m
+from aurora_core.spec.vocabulary import LaneSide
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundColumn, GroundCommandKind
 from aurora_core.trace.roster import Roster
@@ -26,7 +28,7 @@ FloatArray = npt.NDArray[np.float64]
 
 # The simulator's own changes of lane from an ordered one on, a SUMO bit set: only where the route
 # needs them and not against the order, which avoids collisions and waits for no longer gaps.
-ROUTE_CHANGES = 257
+ROUTE_CHANGES = 257.0
 
 # For so long the new lane is kept, the change itself included (s).
 _STAYS_S = LANE_CHANGE_S + 5.0
@@ -54,18 +56,21 @@ class LaneChanger:
         """Return the lane that an agent is on, as an index in the world's lanes."""
         return int(lanes_of_rows(self._world, seen.ground(row)[None, :])[0])
 
-    def goal(self, row: int, seen: Observation, *, back: bool = False) -> int | None:
+    def goal(
+        self, row: int, seen: Observation, *, side: LaneSide | None = None, back: bool = False
+    ) -> int | None:
         """Return the lane that an agent can change to now, None when there is none.
 
         Args:
             row: Which agent.
             seen: States of the tick.
+            side: Where the lane has to be; None: on any side.
             back: The lane to the right before the one to the left.
         """
         state = seen.ground(row)
-        if not can_change(self._world, state[None, :], self._driving_mps)[0]:
+        if not can_change(self._world, state[None, :], self._driving_mps, side)[0]:
             return None
-        beside = lanes_beside(self._world, self.lane(row, seen))
+        beside = lanes_beside(self._world, self.lane(row, seen), side)
         beside = beside[::-1] if back else beside
         return next((k for k in beside if self._is_free(k, row, seen)), None)
 
@@ -91,7 +96,7 @@ class LaneChanger:
 
     def commands(self, row: int, goal: int, *, stays_s: float = _STAYS_S) -> list[GroundCommand]:
         """Return what lets an agent change to a lane, and keep to it for some time (s)."""
-        index = int(self._world.lanes[goal].lane_id.rpartition('_')[2])
+        index = float(self._world.lanes[goal].lane_id.rpartition('_')[2])
         return [
             GroundCommand(
                 agent=row, kind=GroundCommandKind.SET_LANE_CHANGE_MODE, value=ROUTE_CHANGES
@@ -101,16 +106,17 @@ class LaneChanger:
             ),
         ]
 
-    def is_over(self, row: int, was: int, seen: Observation) -> bool:
+    def is_over(self, row: int, was: int, seen: Observation, side: LaneSide | None = None) -> bool:
         """Tell whether an agent is in the middle of another lane of its street.
 
         Args:
             row: Which agent.
             was: The lane that it was on when the change was ordered.
             seen: States of the tick.
+            side: Of the other lane; None: any.
         """
         now = self.lane(row, seen)
-        if not other_lane(self._world, was, now):
+        if not other_lane(self._world, was, now) or not is_to_side(self._world, was, now, side):
             return False
         return bool(off_lane_m(self._world.lanes[now], seen.ground(row)[None, :])[0] <= CENTRED_M)
 

@@ -19,7 +19,12 @@ from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import GoalFinder, stop_after_m, stops
 from aurora_core.grounding.hearing import Hearing, reaches_of
 from aurora_core.grounding.kerb import parked_pose
-from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
+from aurora_core.grounding.lane_changers import (
+    ORDERED_CHANGES,
+    changes_lane,
+    first_side,
+    with_lane_beside,
+)
 from aurora_core.grounding.pace import (
     in_emergency,
     stated_speed_mps,
@@ -33,7 +38,6 @@ from aurora_core.grounding.sites import (
     brisk_lanes,
     line_from,
     on_main_roads,
-    with_another_lane,
 )
 from aurora_core.grounding.way_limits import limits_mps
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -200,7 +204,7 @@ class AgentPlacer:
         if any(p.of == Place.ROADSIDE for p in agent.placements):
             lanes = [lane for lane in lanes if self._is_outermost(lane, record.vclass)]
         if changes_lane(spec, agent):
-            lanes = with_another_lane(lanes)
+            lanes = with_lane_beside(lanes, first_side(spec, agent))
         if not lanes:
             return None
         heard = [lane for lane in lanes if hearing.ends_inside(lane.edge_id)]

@@ -342,7 +342,7 @@ class Grounder:
             for seat in site.seated:
                 if several_lanes and seat.agent.id in changing:
                     pace_mps = own_speed_mps(seat.agent) or stated or wanted
-                    road *= share_with_another_lane(self._map.network, seat, way_m, pace_mps)
+                    road *= share_with_another_lane(spec, self._map.network, seat, way_m, pace_mps)
                     in_time = changes_in_time(spec, self._map.network, seat, pace_mps)
                     road *= max(_NEVER, in_time)
             ranked.append((road, site))

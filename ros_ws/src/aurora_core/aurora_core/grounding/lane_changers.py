@@ -4,16 +4,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.pace import stated_times_s
 from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, with_another_lane
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.route_path import RouteSegment
-from aurora_core.quantities.lane_changes import ROOM_S
+from aurora_core.quantities.lane_changes import ROOM_S, ids_beside
 from aurora_core.spec.own_events import keeps_to_lanes, overtakings, own_events
 from aurora_core.spec.parking import parks
 from aurora_core.spec.scenario import AgentAction, AltitudeTrigger, GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import LaneSide
 
 # Share of a lane's length that its ends are apart where it is straight.
 _STRAIGHT = 0.995
@@ -39,30 +42,49 @@ def needs_lane(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     return _is_ordered(spec, agent) or (passes and keeps_to_lanes(agent))
 
 
+def first_side(spec: ScenarioSpec, agent: GroundAgent) -> LaneSide | None:
+    """Return to which side a vehicle is to change lane first, None where nobody says."""
+    return next((action.side for action in _orders(spec, agent)), None)
+
+
 def _is_ordered(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    return keeps_to_lanes(agent) and any(
-        isinstance(e.action, AgentAction)
+    return keeps_to_lanes(agent) and bool(_orders(spec, agent))
+
+
+def _orders(spec: ScenarioSpec, agent: GroundAgent) -> list[AgentAction]:
+    """Return the changes of lane of a vehicle, as listed."""
+    return [
+        e.action
+        for e in (*spec.events, *own_events(spec))
+        if isinstance(e.action, AgentAction)
         and e.action.do == 'change_lane'
         and e.action.agent == agent.id
-        for e in (*spec.events, *own_events(spec))
-    )
+    ]
+
+
+def with_lane_beside(lanes: Sequence[Lane], side: LaneSide | None) -> list[Lane]:
+    """Return the lanes for cars that have another one of these beside them, on a side."""
+    found = with_another_lane(lanes)
+    ids = {lane.id for lane in found}
+    return [lane for lane in found if side is None or ids & set(ids_beside(lane.id, side))]
 
 
 def share_with_another_lane(
-    network: RoadNetwork, seat: SeatedAgent, way_m: float, pace_mps: float
+    spec: ScenarioSpec, network: RoadNetwork, seat: SeatedAgent, way_m: float, pace_mps: float
 ) -> float:
     """Return the share of the way ahead of a vehicle on which it can change lane, in [0, 1].
 
     Curves do not count: the box of a long vehicle is off the middle of its lane there.
 
     Args:
+        spec: The request.
         network: Road network.
         seat: Where it stands.
         way_m: How much of its way counts, metres.
         pace_mps: How fast it drives; a change of lane takes its way.
     """
     low, high, room_m = seat.arc_m, seat.arc_m + way_m, ROOM_S * pace_mps
-    streets = _wide_streets(network, seat)
+    streets = _wide_streets(network, seat, first_side(spec, seat.agent))
     open_m = sum(max(0.0, min(high, s.end_m - room_m) - max(low, s.start_m)) for s in streets)
     return min(1.0, open_m / way_m)
 
@@ -81,28 +103,32 @@ def changes_in_time(
         pace_mps: How fast it drives.
     """
     times_s = stated_times_s(spec)
-    ordered = [
-        e
-        for e in spec.events
-        if isinstance(e.action, AgentAction)
-        and (e.action.do, e.action.agent) == ('change_lane', seat.agent.id)
-    ]
-    due_s = [times_s[e.id] for e in ordered if e.id in times_s]
-    due_s += [0.0 for e in ordered if isinstance(e.trigger, AltitudeTrigger)]
+    due: list[tuple[float, LaneSide | None]] = []
+    for e in spec.events:
+        if not isinstance(e.action, AgentAction):
+            continue
+        if (e.action.do, e.action.agent) != ('change_lane', seat.agent.id):
+            continue
+        if e.id in times_s:
+            due.append((times_s[e.id], e.action.side))
+        if isinstance(e.trigger, AltitudeTrigger):
+            due.append((0.0, e.action.side))
     lags_m = pace_mps * pace_mps / (2.0 * _GAINS_MPS2)
     fit = 0
-    for at_s in due_s:
+    for at_s, side in due:
         low_m = seat.arc_m + max(0.0, pace_mps * at_s - lags_m)
         high_m = low_m + ROOM_S * pace_mps + _UNSURE_M
         fit += any(
             s.start_m <= max(seat.arc_m, low_m - _UNSURE_M) and high_m <= s.end_m
-            for s in _wide_streets(network, seat)
+            for s in _wide_streets(network, seat, side)
         )
-    return fit / len(due_s) if due_s else 1.0
+    return fit / len(due) if due else 1.0
 
 
-def _wide_streets(network: RoadNetwork, seat: SeatedAgent) -> list[RouteSegment]:
-    several = {lane.id for lane in with_another_lane(network.driving_lanes(ANY_CLASS))}
+def _wide_streets(
+    network: RoadNetwork, seat: SeatedAgent, side: LaneSide | None
+) -> list[RouteSegment]:
+    several = {lane.id for lane in with_lane_beside(network.driving_lanes(ANY_CLASS), side)}
     return [
         s
         for s in seat.path.segments

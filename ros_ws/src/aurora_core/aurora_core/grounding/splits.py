@@ -12,12 +12,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from aurora_core.grounding.convoy import SceneSplit, split_scene
+from aurora_core.grounding.convoy import ConvoyMember, SceneSplit, split_scene
+from aurora_core.grounding.lane_changers import first_side
 from aurora_core.grounding.persons import crosses
 from aurora_core.grounding.stepping_out import names_crosswalk
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerance
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import LaneSide
 
 
 def splits(
@@ -36,6 +38,26 @@ def splits(
         rides = any(m.bike_lane for group in (split.convoy, *split.groups) for m in group)
         if bool(split.groups) == apart and rides == bike_lanes:
             found.append(split)
+    found = [_lifted(spec, split) for split in found]
     yield from found
     if any(crosses(spec, a) and not names_crosswalk(a) for a in found[0].persons):
         yield from (replace(split, anywhere=True) for split in found)
+
+
+def _lifted(spec: ScenarioSpec, split: SceneSplit) -> SceneSplit:
+    """Return a split in which who is to go to the right first has a lane there.
+
+    One drives in the right lane: the whole group is in the next one then, and keeps its relations.
+    """
+
+    def lifted(members: tuple[ConvoyMember, ...]) -> tuple[ConvoyMember, ...]:
+        if all(first_side(spec, m.agent) is not LaneSide.RIGHT for m in members):
+            return members
+        return tuple(
+            m if m.bike_lane or m.parked else replace(m, lane_shift=m.lane_shift + 1)
+            for m in members
+        )
+
+    return replace(
+        split, convoy=lifted(split.convoy), groups=tuple(lifted(group) for group in split.groups)
+    )

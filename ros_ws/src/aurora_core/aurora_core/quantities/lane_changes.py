@@ -23,6 +23,7 @@ from aurora_core.quantities.lanes import (
     off_lane_m,
 )
 from aurora_core.quantities.view import Body, RunView
+from aurora_core.spec.vocabulary import LaneSide
 from aurora_core.trace.layout import GroundColumn
 
 FloatArray = npt.NDArray[np.float64]
@@ -41,15 +42,34 @@ CENTRED_M = 0.35
 _SIDEWAYS_MPS = 0.3
 
 
-def lanes_beside(world: WorldModel, lane: int) -> tuple[int, ...]:
+# Lanes are counted from the right in their direction of travel, the left lane first here.
+_STEPS = {LaneSide.LEFT: 1, LaneSide.RIGHT: -1}
+
+
+def ids_beside(lane_id: str, side: LaneSide | None = None) -> tuple[str, ...]:
+    """Return the ids that lanes next to a lane have if there are any, the left one first."""
+    edge, _, place = lane_id.rpartition('_')
+    steps = _STEPS.values() if side is None else (_STEPS[side],)
+    return tuple(f'{edge}_{int(place) + step}' for step in steps)
+
+
+def lanes_beside(world: WorldModel, lane: int, side: LaneSide | None = None) -> tuple[int, ...]:
     """Return the indices of the lanes next to a lane on its street, the left one first."""
-    edge, _, place = world.lanes[lane].lane_id.rpartition('_')
     ids = {other.lane_id: index for index, other in enumerate(world.lanes)}
-    beside = (f'{edge}_{int(place) + 1}', f'{edge}_{int(place) - 1}')
+    beside = ids_beside(world.lanes[lane].lane_id, side)
     return tuple(ids[lane_id] for lane_id in beside if lane_id in ids)
 
 
-def can_change(world: WorldModel, rows: FloatArray, least_mps: float) -> BoolArray:
+def is_to_side(world: WorldModel, was: int, now: int, side: LaneSide | None) -> bool:
+    """Tell whether a change from one lane of a street to another one is to a side (None: any)."""
+    places = (int(world.lanes[k].lane_id.rpartition('_')[2]) for k in (was, now))
+    before, after = places
+    return side is None or (after - before) * _STEPS[side] > 0
+
+
+def can_change(
+    world: WorldModel, rows: FloatArray, least_mps: float, side: LaneSide | None = None
+) -> BoolArray:
     """Tell where a vehicle can change lane, (n,).
 
     It drives on a street with another lane beside its own, which goes on for `ROOM_S`.
@@ -58,11 +78,12 @@ def can_change(world: WorldModel, rows: FloatArray, least_mps: float) -> BoolArr
         world: With the lanes.
         rows: (n, GROUND_WIDTH) states of the vehicle.
         least_mps: Speed that counts as driving.
+        side: Where the other lane has to be; None: on any side.
     """
     lanes = lanes_of_rows(world, rows)
     can = np.zeros(len(rows), dtype=np.bool_)
     for lane in np.unique(lanes[lanes != NO_LANE]).tolist():
-        if not lanes_beside(world, lane):
+        if not lanes_beside(world, lane, side):
             continue
         there = np.flatnonzero(lanes == lane)
         speed = rows[there, GroundColumn.SPEED]
@@ -71,30 +92,50 @@ def can_change(world: WorldModel, rows: FloatArray, least_mps: float) -> BoolArr
     return can
 
 
-def change_begins(view: RunView, body: Body, start: int) -> int | None:
+def change_ticks(view: RunView, lanes: LaneArray, side: LaneSide | None) -> list[int]:
+    """Return the ticks at which a body is first seen on another lane, to a side (None: any).
+
+    Args:
+        view: The run.
+        lanes: (T,) as `lane_of` returns it.
+        side: Which changes count.
+    """
+    return [
+        tick
+        for tick in lane_change_ticks(view, lanes)
+        if is_to_side(view.world, lane_before(lanes, tick), int(lanes[tick]), side)
+    ]
+
+
+def change_begins(
+    view: RunView, body: Body, start: int, side: LaneSide | None = None
+) -> int | None:
     """Return the tick at which the first change of lane after `start` begins, None without one.
 
     A change begins when the vehicle begins to go sideways.
     """
     lanes = lane_of(view, body)
-    for tick in lane_change_ticks(view, lanes):
+    for tick in change_ticks(view, lanes, side):
         begins = _leaves(view, body, lanes, tick)
         if begins >= start:
             return begins
     return None
 
 
-def change_is_over(view: RunView, body: Body, start: int) -> int | None:
+def change_is_over(
+    view: RunView, body: Body, start: int, side: LaneSide | None = None
+) -> int | None:
     """Return the tick at which a vehicle that changes lane after `start` is in the middle again.
 
     Args:
         view: The run.
         body: The vehicle.
         start: A change that began before does not count.
+        side: Nor does one to another side than this (None: any).
     """
     lanes = lane_of(view, body)
     rows = view.rows(body)
-    for tick in lane_change_ticks(view, lanes):
+    for tick in change_ticks(view, lanes, side):
         if _leaves(view, body, lanes, tick) < start:
             continue
         lane = int(lanes[tick])

@@ -251,7 +251,7 @@ class EventTimes:
         first = begins if due is None else due
         body = self.view.body(action.agent)
         if action.do == 'change_lane':
-            return change_is_over(self.view, body, first)
+            return change_is_over(self.view, body, first, action.side)
         if action.do == 'cross':
             return self._over_the_street(action.agent, begins)
         there = first_tick(~self.view.present(action.agent), first)
@@ -338,7 +338,7 @@ class EventTimes:
             gain = -motion.deceleration(self.view, body)
             return _onset(gain >= self.rules.onset_mps2, start, begins_there=begins_there)
         if action.do == 'change_lane':
-            return change_begins(self.view, body, start)
+            return change_begins(self.view, body, start, action.side)
         on = self._on_carriageway(action.agent)
         steps = first_tick(np.concatenate(([False], on[1:] & ~on[:-1])), start)
         if steps is None or rules is None:

@@ -49,7 +49,14 @@ from aurora_core.spec.reference import is_place
 from aurora_core.spec.requirements import Order, SceneCount, StatedCondition
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.scene import Behavior, GroundAgent, Link, Placement, UavMission, World
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation, Role
+from aurora_core.spec.vocabulary import (
+    AgentType,
+    BehaviorKind,
+    LaneSide,
+    MissionMode,
+    Relation,
+    Role,
+)
 
 
 class ElementReport(Document):
@@ -217,7 +224,7 @@ def _behavior(behavior: Behavior) -> str:
     else:
         does = does.removesuffix(' to')
     numbers = ''.join(f', {text}' for text in _named_numbers(behavior, stated=True))
-    return f'{does}{whom}{numbers}'
+    return f'{does}{whom}{_to_side(behavior.side)}{numbers}'
 
 
 # --- flights and radio ---------------------------------------------------------------------------
@@ -310,7 +317,12 @@ def _action(action: EventAction) -> str:
             return f'{uav} goes over to {mission}'
         case UavAction(do=do, uav=uav) | AgentAction(do=do, agent=uav):
             numbers = ''.join(f', {text}' for text in _named_numbers(action, stated=True))
-            return f'{uav} is to {do.replace("_", " ")}{numbers}'
+            side = _to_side(action.side) if isinstance(action, AgentAction) else ''
+            return f'{uav} is to {do.replace("_", " ")}{side}{numbers}'
+
+
+def _to_side(side: LaneSide | None) -> str:
+    return '' if side is None else f' to the {side.value}'
 
 
 # --- requirements --------------------------------------------------------------------------------

@@ -8,8 +8,10 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from aurora_core.document import omitted
 from aurora_core.spec.parameter import Bound, Element, Parameter, Span
 from aurora_core.spec.reference import Id, PlaceRef, is_place
+from aurora_core.spec.vocabulary import LaneSide
 
 
 class DistanceTrigger(Element):
@@ -119,11 +121,18 @@ AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield',
 
 
 class AgentAction(Element):
-    """A ground agent changes what it does."""
+    """A ground agent changes what it does; `side` is that of the lane it changes to."""
 
     do: AgentDo
     agent: Id
     value_mps: Parameter | None = None
+    side: LaneSide | None = omitted(None)
+
+    @model_validator(mode='after')
+    def _has_its_fields(self) -> Self:
+        if self.side is not None and self.do != 'change_lane':
+            raise ValueError(f'a side belongs to change_lane alone, found it with {self.do}')
+        return self
 
 
 class UavAction(Element):

@@ -167,6 +167,6 @@ def _event(event_id: str, agent: GroundAgent, behavior: Behavior) -> Event:
     return Event(
         id=event_id,
         trigger=trigger,
-        action=AgentAction(do=do, agent=agent.id, value_mps=speed),
+        action=AgentAction(do=do, agent=agent.id, value_mps=speed, side=behavior.side),
         span=behavior.span,
     )

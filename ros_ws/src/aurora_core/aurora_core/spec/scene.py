@@ -15,6 +15,7 @@ from aurora_core.spec.seed import Seed
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
+    LaneSide,
     LinkOcclusion,
     MissionMode,
     Pattern,
@@ -110,6 +111,7 @@ class Behavior(Element):
         speed_mps: Stated speed.
         closing_from_m: Tailgate or approach: distance to `target` at t = 0 and when the
             closing starts.
+        side: Of the lane that is changed to.
     """
 
     kind: BehaviorKind
@@ -117,7 +119,14 @@ class Behavior(Element):
     target_inferred: bool = omitted(False)
     speed_mps: Parameter | None = None
     closing_from_m: Parameter | None = None
+    side: LaneSide | None = omitted(None)
     span: Span | None = None
+
+    @model_validator(mode='after')
+    def _side_is_of_a_lane(self) -> Self:
+        if self.side is not None and self.kind is not BehaviorKind.CHANGE_LANE:
+            raise ValueError(f'a side belongs to change_lane alone, found it with {self.kind}')
+        return self
 
 
 class GroundAgent(Element):

@@ -128,6 +128,13 @@ class Side(StrEnum):
     RIGHT = 'right'
 
 
+class LaneSide(StrEnum):
+    """Of a lane, in its direction of travel."""
+
+    LEFT = 'left'
+    RIGHT = 'right'
+
+
 class LinkOcclusion(StrEnum):
     """What it does to a message that something stands in the line of sight."""
 

@@ -13,6 +13,7 @@ import pytest
 from aurora_core.knowledge.world import CentreLine
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import AgentAction, Event, EventDoneTrigger, TimeTrigger
+from aurora_core.spec.vocabulary import LaneSide
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.records import ScenarioEventKind
 
@@ -50,6 +51,28 @@ def test_the_left_lane_is_the_first_choice(stage: Build, parameter: Make) -> Non
     scene.put('van1', 500.0).put('ego', 20.0, 6.6, 10.0).step(3)
     assert _orders(scene) == [(0, MODE, 257.0), (0, LANE, 3.0)]
     assert [t for t, _, _ in scene.notes(ScenarioEventKind.ACTION)] == [0]
+
+
+def _to_side(make: Make, side: str) -> Event:
+    change = AgentAction(do='change_lane', agent='ego', side=LaneSide(side))
+    return _at_once(make).model_copy(update={'action': change})
+
+
+@pytest.mark.parametrize(('side', 'lane'), [('left', 3.0), ('right', 1.0)])
+def test_a_stated_side_is_the_only_choice(
+    side: str, lane: float, stage: Build, parameter: Make
+) -> None:
+    scene = stage(tracks={}, events=(_to_side(parameter, side),), lanes=_street(1, 2, 3))
+    scene.put('van1', 500.0).put('ego', 20.0, 6.6, 10.0).step()
+    assert _orders(scene)[-1] == (0, LANE, lane)
+    # A bag keeps floats, and its hash tells them from integers.
+    assert all(type(value) is float for _, _, value in _orders(scene))
+
+
+def test_where_the_stated_side_has_no_lane_it_waits(stage: Build, parameter: Make) -> None:
+    scene = stage(tracks={}, events=(_to_side(parameter, 'right'),), lanes=_street(1, 2))
+    scene.put('van1', 500.0).put('ego', 20.0, 3.3, 10.0).step(5)
+    assert _orders(scene) == []
 
 
 @pytest.mark.parametrize(

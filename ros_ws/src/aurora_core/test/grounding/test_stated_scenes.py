@@ -183,6 +183,24 @@ def test_who_is_to_change_lane_keeps_to_a_straight_street_with_several_lanes_unt
     assert hx * there_x + hy * there_y > 0.99
 
 
+@pytest.mark.parametrize(
+    ('prompt', 'place'),
+    [
+        ('A drone tracks a bus. After 10 s the bus changes to the left lane.', 0),
+        ('A drone tracks a bus. After 10 s the bus changes to the right lane.', 1),
+        ('A van follows a truck. A drone tracks the van. The truck moves into the right lane.', 1),
+    ],
+)
+def test_who_is_to_go_to_a_side_has_a_lane_there(
+    prompt: str, place: int, grounded: Callable[[str], GroundedScenario]
+) -> None:
+    lanes = {a.id: int(a.lane_id.rpartition('_')[2]) for a in grounded(prompt).agents}
+    changes = lanes.get('bus1', lanes.get('truck1'))
+    assert changes is not None
+    assert changes >= place
+    assert lanes.get('van1', changes) == changes, 'who follows is in the same lane'
+
+
 def test_nobody_passes_who_changes_lane(grounded: Callable[[str], GroundedScenario]) -> None:
     prompt = 'A van and a truck drive in a row. A drone tracks the truck.'
     factors = [a.speed_factor for a in grounded(prompt).agents]

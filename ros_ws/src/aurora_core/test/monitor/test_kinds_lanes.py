@@ -19,7 +19,7 @@ from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior
-from aurora_core.spec.vocabulary import AgentType
+from aurora_core.spec.vocabulary import AgentType, LaneSide
 from aurora_core.spec.vocabulary import BehaviorKind as B
 
 T = 401  # 20 s
@@ -47,9 +47,10 @@ def _street(case: Case, lanes: int = 2) -> Case:
     return case
 
 
-def _changes(*ticks: int, lanes: int = 2) -> Case:
-    """A car goes to the other lane at each of the ticks."""
-    case = _street(ground_case(Behavior(kind=B.CHANGE_LANE), _steady(5.0)), lanes)
+def _changes(*ticks: int, lanes: int = 2, side: LaneSide | None = None) -> Case:
+    """A car goes to the other lane at each of the ticks, first to the left."""
+    behavior = Behavior(kind=B.CHANGE_LANE, side=side)
+    case = _street(ground_case(behavior, _steady(5.0)), lanes)
     for tick in ticks:
         y = case.run.agents[0].y
         y[tick:] = 3.3 - y[tick:]
@@ -98,6 +99,25 @@ ROWS = (
     # Overtaken on the other lane, and back.
     Row(id='car1.change_lane', make=lambda: _changes(100, 200), margin=10.0 - 2.0, what='twice'),
     Row(id='car1.change_lane', make=lambda: _changes(200, lanes=1), reason=NEVER),
+    # To the left for 10 s, to the right never, or for 5 s after 5 s on the left.
+    Row(
+        id='car1.change_lane',
+        make=lambda: _changes(200, side=LaneSide.LEFT),
+        margin=10.0 - 2.0,
+        what='left',
+    ),
+    Row(
+        id='car1.change_lane',
+        make=lambda: _changes(200, side=LaneSide.RIGHT),
+        margin=0.0 - 2.0,
+        what='not-right',
+    ),
+    Row(
+        id='car1.change_lane',
+        make=lambda: _changes(200, 300, side=LaneSide.RIGHT),
+        margin=5.0 - 2.0,
+        what='right-at-last',
+    ),
     Row(id='car1.change_lane', make=lambda: gone(_changes(200), 0, 0), reason=GONE),
     # 1 m/s above the limit is asked.
     Row(id='car1.emergency_run', make=lambda: _run(12.0), margin=2.0 - 1.0),

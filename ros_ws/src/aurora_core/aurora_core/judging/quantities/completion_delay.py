@@ -22,6 +22,7 @@ from aurora_core.judging.build import (
 from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick, ground_topics
 from aurora_core.judging.happening import agent_action, never_happened
 from aurora_core.judging.mission import climb_mps, descent_mps
+from aurora_core.judging.quantities.lane_change import the_lane
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import motion
@@ -204,6 +205,8 @@ def implied(
         gains = action.do in ('accelerate', 'start')
         least = facts.acceleration_mps2 if gains else facts.deceleration_mps2
     done = ENDS.get(action.do, '')
+    if action.side is not None:
+        done = f'is in the middle of {the_lane(action.side)}'
     if goal is not None:
         done = f'has got to {bound_words(goal)} {number(goal.value)} m/s'
         if goal.provenance is Provenance.EXPLICIT:

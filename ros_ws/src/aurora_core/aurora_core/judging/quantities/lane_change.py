@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from aurora_core.document import omitted
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import (
     Context,
@@ -23,11 +24,10 @@ from aurora_core.judging.quantity import OfEvent, Quantity
 from aurora_core.judging.until import existing_until
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
+from aurora_core.quantities.lane_changes import change_ticks, lanes_beside
 from aurora_core.quantities.lanes import (
     NO_LANE,
     LaneArray,
-    edge_of,
-    edges_with_several_lanes,
     lane_before,
     lane_change_ticks,
     lane_of,
@@ -35,14 +35,20 @@ from aurora_core.quantities.lanes import (
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Event
+from aurora_core.spec.vocabulary import LaneSide
 
 
 class LaneChange(Quantity):
-    """Time for which a lane was kept after the change to it, of the change kept longest, s."""
+    """Time for which a lane was kept after the change to it, of the change kept longest, s.
+
+    Attributes:
+        side: Changes to this side alone count; None: to any.
+    """
 
     name = QuantityName.LANE_CHANGE
     kind: Literal['lane_change'] = 'lane_change'
     window: Window = Window.RUN
+    side: LaneSide | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return the time; where there is no other lane nothing can be changed."""
@@ -52,18 +58,18 @@ class LaneChange(Quantity):
         view = context.view
         body = view.body(condition.of[0])
         lanes = lane_of(view, body)[:end]
-        several = edges_with_several_lanes(view.world)
-        if not any(edge_of(view.world.lanes[k]) in several for k in _visited(lanes)):
-            story = f'{body.body_id} was never on a street with another lane to change to'
+        if not any(lanes_beside(view.world, k, self.side) for k in _visited(lanes)):
+            story = f'{body.body_id} was never on a street with {_another(self.side)} to change to'
             return Missing(reason=Reason.PREMISE_NEVER, story=story)
         changes = lane_change_ticks(view, lanes)
-        if not changes:
-            story = f'{body.body_id} kept to its lane'
-            return at_tick(0, 0.0, story, ground_topics(condition), later=Later.RISES)
         kept = _kept(changes, lanes, end, whole_ticks(condition.threshold, view.dt_s))
-        longest = int(np.argmax(kept))
-        tick = changes[longest]
-        kept_s = context.time_s(kept[longest])
+        asked = change_ticks(view, lanes, self.side)
+        found = {tick: ticks for tick, ticks in zip(changes, kept, strict=True) if tick in asked}
+        if not found:
+            story = _stayed(body.body_id, self.side)
+            return at_tick(0, 0.0, story, ground_topics(condition), later=Later.RISES)
+        tick = max(found, key=lambda k: (found[k], -k))
+        kept_s = context.time_s(found[tick])
         story = (
             f'{body.body_id} changed lane at {context.time_s(tick):.2f} s and kept to the new one '
             f'for {kept_s:.2f} s'
@@ -90,10 +96,10 @@ class LaneKeptAfter(OfEvent):
         topics = ground_topics(condition)
         begins = times.action_tick(self.event, due)
         if begins is None:
-            story = f'{body.body_id} kept to its lane'
+            story = _stayed(body.body_id, action.side)
             return at_tick(due, 0.0, story, topics, later=Later.RISES, provisional=True)
         changes = lane_change_ticks(view, lanes)
-        tick = next(t for t in changes if t >= begins)
+        tick = next(t for t in change_ticks(view, lanes, action.side) if t >= begins)
         back = next((t for t in changes if t > tick), view.ticks - 1)
         kept_s = context.time_s(back - tick)
         story = (
@@ -114,12 +120,27 @@ def after_event(inputs: Inputs, event: Event, action: AgentAction, source: Sourc
     hold_s = inputs.tolerances.lane_hold_s
     return condition(
         id=f'{event.id}.lane',
-        sentence=f'{action.agent} keeps to the other lane for {number(hold_s)} s',
+        sentence=f'{action.agent} keeps to {the_lane(action.side)} for {number(hold_s)} s',
         of=(action.agent,),
         target=Target(op='>=', threshold=hold_s, unit='s'),
         arguments=LaneKeptAfter(**inputs.of_event(event.id)),
         source=source,
         every_sample=False,
+    )
+
+
+def the_lane(side: LaneSide | None) -> str:
+    """Return the words for the lane that is changed to."""
+    return 'the other lane' if side is None else f'the lane on its {side.value}'
+
+
+def _another(side: LaneSide | None) -> str:
+    return 'another lane' if side is None else f'a lane on its {side.value}'
+
+
+def _stayed(body_id: str, side: LaneSide | None) -> str:
+    return f'{body_id} ' + (
+        'kept to its lane' if side is None else f'did not go to its {side.value}'
     )
 
 

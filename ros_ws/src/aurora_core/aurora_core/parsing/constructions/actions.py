@@ -11,7 +11,12 @@ from aurora_core.parsing.constructions import missions
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers, landed_by
 from aurora_core.parsing.constructions.messages import message
-from aurora_core.parsing.constructions.places import add_placement, place_of, placements_of
+from aurora_core.parsing.constructions.places import (
+    add_placement,
+    lane_side,
+    place_of,
+    placements_of,
+)
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pronouns import mobile
 from aurora_core.parsing.reactions import REACTIONS
@@ -100,7 +105,8 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
         for placement in placements_of(frame, who, kept=False):
             add_placement(who[0], placement)
     frame.scene.became(who[0].id)
-    return AgentAction(do=_AGENT_DO[frame.key], agent=who[0].id, value_mps=speed)
+    side = lane_side(frame)
+    return AgentAction(do=_AGENT_DO[frame.key], agent=who[0].id, value_mps=speed, side=side)
 
 
 def _in_brackets(frame: Frame, adjunct: Adjunct) -> bool:

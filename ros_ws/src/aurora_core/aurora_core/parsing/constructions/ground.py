@@ -11,6 +11,7 @@ from aurora_core.parsing.constructions.places import (
     add_placement,
     gap,
     is_throughout,
+    lane_side,
     named_reference,
     place_of,
     placements_of,
@@ -110,9 +111,15 @@ def behavior(frame: Frame) -> bool:
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
     if kind is BehaviorKind.OVERTAKE and not _overtakes(frame, target):
         kind = BehaviorKind.DRIVE  # `a bus goes past at 20 km/h`
+    side = lane_side(frame)
     placements = _placements(frame, subjects, target, closing)
     made = Behavior(
-        kind=kind, target=target, speed_mps=speed, closing_from_m=closing, span=frame.span
+        kind=kind,
+        target=target,
+        speed_mps=speed,
+        closing_from_m=closing,
+        side=side,
+        span=frame.span,
     )
     if kind is BehaviorKind.CIRCULATE:
         for adjunct in frame.free(AdjunctKind.OBJECT):
@@ -183,12 +190,14 @@ def _commanded(frame: Frame) -> None:
 def add_behavior(entity: Entity, made: Behavior, placements: tuple[Placement, ...]) -> None:
     for i, known in enumerate(entity.behaviors):
         same = known.kind is made.kind and (known.target == made.target or made.target is None)
+        same = same and (known.side is made.side or None in (known.side, made.side))
         if same and (known.speed_mps is None or made.speed_mps is None):
             entity.behaviors[i] = Behavior(
                 kind=known.kind,
                 target=known.target or made.target,
                 speed_mps=known.speed_mps or made.speed_mps,
                 closing_from_m=known.closing_from_m or made.closing_from_m,
+                side=known.side or made.side,
                 span=known.span,
             )
             break

@@ -17,7 +17,7 @@ from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import Entity, Unanchored
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Placement
-from aurora_core.spec.vocabulary import Relation, Role
+from aurora_core.spec.vocabulary import LaneSide, Relation, Role
 
 _KEPT = frozenset(
     {
@@ -155,6 +155,21 @@ def gap(frame: Frame) -> Parameter | None:
     return values.bounded(values.explicit('placement_distance', adjunct.measure), adjunct.prep)
 
 
+def lane_side(frame: Frame) -> LaneSide | None:
+    """Take the side of the lane that is changed to."""
+    if frame.key != 'change_lane':
+        return None
+    words = '' if frame.verb is None else frame.verb.words
+    for side in LaneSide:
+        if side.value in words.split():
+            return side
+    for adjunct in frame.free(AdjunctKind.PLACE, *LaneSide):
+        if not adjunct.nouns and adjunct.measure is None:
+            adjunct.used = True
+            return LaneSide(adjunct.key)
+    return None
+
+
 def placements_of(
     frame: Frame, subjects: tuple[Entity, ...], *, kept: bool
 ) -> tuple[Placement, ...]:
@@ -163,8 +178,6 @@ def placements_of(
     for adjunct in frame.free(AdjunctKind.PLACE):
         if frame.key == 'overtake' and adjunct.key in ('left', 'right') and not adjunct.nouns:
             continue  # the side of an overtaking is not part of the vocabulary
-        if frame.key == 'change_lane' and adjunct.key in ('left', 'right') and not adjunct.nouns:
-            continue  # nor is that of a change of lane: it is not where it begins
         if frame.key == 'stop' and adjunct.key == 'before':
             continue  # where it will stop is not where it is at the start
         if _of_the_object(frame, adjunct):

@@ -31,6 +31,7 @@ from aurora_core.spec.scenario import (
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
+    LaneSide,
     MissionMode,
     Pattern,
     Weather,
@@ -321,6 +322,26 @@ def _sided(spec: ScenarioSpec, clause: Clause) -> bool:
     return flies or not flown or any(meet(p.span, clause.span) for p in meets if p.span)
 
 
+def _left_lane(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A change to the lane on the left."""
+    return LaneSide.LEFT in _lane_sides(spec, clause)
+
+
+def _right_lane(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A change to the lane on the right."""
+    return LaneSide.RIGHT in _lane_sides(spec, clause)
+
+
+def _lane_sides(spec: ScenarioSpec, clause: Clause) -> set[LaneSide | None]:
+    told = {
+        e.action.side
+        for e in spec.events
+        if isinstance(e.action, AgentAction) and e.id in clause.ids
+    }
+    agents = [a for a in spec.agents if a.id in clause.ids]
+    return told | {b.side for a in agents for b in a.behaviors}
+
+
 def _no_event(spec: ScenarioSpec, clause: Clause) -> bool:
     """What goes on, and is no effect of something."""
     return not any(e.action is not None for e in spec.events if e.id in clause.ids)
@@ -409,6 +430,8 @@ CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'earlier': _earlier,
     'sided': _sided,
     'lanes': _lanes,
+    'left_lane': _left_lane,
+    'right_lane': _right_lane,
     'no_wind': _no_wind,
     'no_event': _no_event,
     'mutual': _mutual,

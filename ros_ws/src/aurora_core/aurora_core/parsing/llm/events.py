@@ -114,6 +114,7 @@ def _action(name: str, given: ActionReading, parts: Parts) -> EventAction:
     receiver = parts.ref_or_none(given.receiver)
     _put(fields, 'receiver' if message else '', receiver, f'{where}.receiver')
     _put(fields, 'mission' if flies else '', mission, f'{where}.mission')
+    _put(fields, 'side' if given.do == 'change_lane' else '', given.side, f'{where}.side')
     parameter = 'altitude' if flies else 'ground_speed'
     value = parts.number(parameter, given.value, f'{where}.value')
     _put(fields, '' if message else 'altitude_m' if flies else 'value_mps', value, where)

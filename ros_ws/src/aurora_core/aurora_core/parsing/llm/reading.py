@@ -18,6 +18,7 @@ from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
     ClauseStatus,
+    LaneSide,
     LinkOcclusion,
     MissionMode,
     Pattern,
@@ -74,6 +75,7 @@ class BehaviorReading(Document):
     target: Reference | None = None
     speed_mps: Number | None = None
     closing_from_m: Number | None = None
+    side: LaneSide | None = None
     quote: Quote
 
 
@@ -177,6 +179,7 @@ class ActionReading(Document):
     receiver: Name | None = None
     value: Number | None = None
     mission: Name | None = None
+    side: LaneSide | None = None
 
 
 class EventReading(Document):

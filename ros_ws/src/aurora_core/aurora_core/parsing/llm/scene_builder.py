@@ -231,11 +231,14 @@ def _add_agent(agent: AgentReading, parts: Parts) -> None:
 
 def _add_behavior(entity: Entity, said: BehaviorReading, where: str, parts: Parts) -> None:
     closing = parts.number('closing_from', said.closing_from_m, f'{where}.closing_from_m')
+    if said.side is not None and said.kind is not BehaviorKind.CHANGE_LANE:
+        parts.complaints.append(f'{where}.side: only who changes lane has one')
     made = Behavior(
         kind=said.kind,
         target=parts.ref_or_none(said.target),
         speed_mps=parts.number('ground_speed', said.speed_mps, f'{where}.speed_mps'),
         closing_from_m=closing,
+        side=said.side if said.kind is BehaviorKind.CHANGE_LANE else None,
         span=parts.span(said.quote, where),
     )
     if made.target == entity.id:
