@@ -32,6 +32,7 @@ from aurora_core.spec.events import (
     VisibilityTrigger,
 )
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Unit
+from aurora_core.spec.parking import parks
 from aurora_core.spec.prohibitions import (
     ForbiddenAgent,
     ForbiddenBehavior,
@@ -78,7 +79,7 @@ def said_back(spec: ScenarioSpec) -> tuple[ElementReport, ...]:
     return (
         _world(spec.world),
         *map(_agent, spec.agents),
-        *_flights(spec.missions),
+        *_flights(spec),
         *(_link(link) for link in spec.links if _stated(link)),
         *(ElementReport(id=e.id, text=_event(e)) for e in spec.events),
         *(ElementReport(id=c.id, text=_condition(c, spec)) for c in spec.conditions),
@@ -230,19 +231,23 @@ def _behavior(behavior: Behavior) -> str:
 # --- flights and radio ---------------------------------------------------------------------------
 
 
-def _flights(missions: Sequence[UavMission]) -> Iterator[ElementReport]:
-    for uav, own in groupby(sorted(missions, key=lambda m: m.uav), key=lambda m: m.uav):
+def _flights(spec: ScenarioSpec) -> Iterator[ElementReport]:
+    # Who is over somebody, or goes round him, stays there when that one drives off.
+    leave = {a.id for a in spec.agents if not parks(spec, a)}
+    for uav, own in groupby(sorted(spec.missions, key=lambda m: m.uav), key=lambda m: m.uav):
         for k, mission in enumerate(own):
             after = 'then ' if k else ''
-            text = f'{uav} {after}{_flies(mission)}'
+            text = f'{uav} {after}{_flies(mission, leaves=mission.target in leave)}'
             assumed = _named_numbers(mission, stated=False)
             if mission.target_inferred:
                 assumed.insert(0, f'target {_place(mission.target)}')
             yield ElementReport(id=mission.id, text=text, assumed=', '.join(assumed))
 
 
-def _flies(mission: UavMission) -> str:
+def _flies(mission: UavMission, *, leaves: bool) -> str:
     target = _place(mission.target)
+    if leaves and mission.mode is not MissionMode.TRACK:
+        target = f'where {target} is at the start'
     match mission.mode:
         case MissionMode.HOVER:
             what = f'hovers over {target}'

@@ -8,7 +8,7 @@ import pytest
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.data_files import read_data
-from aurora_core.parsing.doubts import bodies, clauses, flights, messages, times
+from aurora_core.parsing.doubts import bodies, clauses, flights, messages, narrated, times
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.vocabulary import ClauseStatus
 
@@ -35,6 +35,7 @@ def _unread(prompt: str) -> list[str]:
         times._ONCE,
         times._INTRANSITIVE,
         times._LETS_PASS,
+        narrated._DEEDS,
     ],
     ids=sorted,
 )
@@ -121,6 +122,21 @@ _NEAR = 'when the van comes within 30 m of the ego car'
         ('A drone flies for 60 s and tracks a bus at 40 m altitude.', 'flies for 60 s'),
         ('While the bus stops, the drone hovers over it at 40 m.', 'While the bus stops'),
         ('As long as the truck is within 40 m of the bus, the drone tracks it.', 'As long as'),
+        ('A drone tracks a van for 20 s, then circles it with a radius of 30 m.', 'circles it'),
+        ('A bus stops, a pedestrian crosses, and the bus drives on.', 'a pedestrian crosses'),
+        ('The truck brakes, so the ego car behind it brakes too.', 'ego car behind it brakes'),
+        ('A drone tracks a bus. When it has tracked the bus for 15 s, the bus stops.', 'stops'),
+        (
+            'A bus drives. When the ego car comes within 25 m of it, it slows to 5 m/s.',
+            'of it, it',
+        ),
+        (
+            'Drone 1 tracks a van. Drone 2 hovers at 40 m and passes on the alerts of drone 1 to '
+            'the ego car.',
+            'passes on the alerts of',
+        ),
+        ('A drone scans the front of City Hall between 10 m and 40 m.', 'scans the front of'),
+        ('At 10 s a van changes to the far left lane.', 'changes to the far left'),
         (
             'Two drones hover at 60 m for 20 s, one over City Hall and one over Harbor Market, '
             'and stay at least 100 m apart.',
@@ -172,6 +188,13 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'Two drones hover over City Hall at 40 m and 60 m and stay at least 15 m apart.',
         'A drone flies at 40 m for 30 s.',
         'While a drone tracks a van, the van is always within 40 m of the ego car.',
+        'A car turns left and a bus turns right.',
+        'A truck stops at 9 s, and a car stops at 12 s.',
+        'If my car gets closer than 20 m to the truck ahead of it, it brakes.',
+        'Five cars make way for a fire engine on an emergency run.',
+        'A drone hovers over a van for 20 s, then tracks it.',
+        'After the drone has tracked the van for 10 s, it hovers over City Hall.',
+        'When a van comes within 25 m of the ego car, it changes to the left lane.',
     ],
 )
 def test_what_elements_say_is_not_doubted(prompt: str) -> None:

@@ -376,6 +376,20 @@ def _retries(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(p.provenance is Provenance.EXPLICIT for p in told)
 
 
+def _relayed(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A message that is sent by whom another one has reached."""
+    sent = [e for e in spec.events if isinstance(e.action, SendMessage)]
+    return (
+        any(
+            isinstance(e.trigger, MessageTrigger)
+            and isinstance(e.action, SendMessage)
+            and e.trigger.by == e.action.sender
+            for e in sent
+        )
+        and len(sent) > 1
+    )
+
+
 def _messaged(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(isinstance(e.trigger, MessageTrigger) for e in spec.events)
 
@@ -436,6 +450,7 @@ CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'no_event': _no_event,
     'mutual': _mutual,
     'messaged': _messaged,
+    'relayed': _relayed,
     'within': _within,
     'several': _several,
     'retries': _retries,

@@ -100,6 +100,8 @@ def hovers_over_movers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Sp
     """`hovers above a truck that drives`, `orbits` it: either stays where that is at first."""
     moving = {a.id for a in spec.agents if any(b.kind in _MOVES for b in a.behaviors)}
     for mission in spec.missions:
+        if mission.mode is MissionMode.TRACK and mission.target is not None:
+            moving.add(mission.target)  # it drives on: what comes next leaves it
         stays = mission.mode is MissionMode.HOVER or mission.pattern is Pattern.ORBIT
         if not stays or mission.target not in moving:
             continue

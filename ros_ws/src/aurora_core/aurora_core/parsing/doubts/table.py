@@ -49,6 +49,7 @@ from aurora_core.parsing.doubts.messages import (
     places_of_deeds,
     told_by_a_person,
 )
+from aurora_core.parsing.doubts.narrated import in_their_order, said_twice, untied_causes
 from aurora_core.parsing.doubts.roles import misanchored, misplaced
 from aurora_core.parsing.doubts.telling_words import comparisons, untold
 from aurora_core.parsing.doubts.times import (
@@ -108,6 +109,9 @@ _CHECKS: tuple[_Check, ...] = (
     at_one_moment,
     bounds_meanwhile,
     times_of_others,
+    in_their_order,
+    untied_causes,
+    said_twice,
 )
 
 
