@@ -116,6 +116,16 @@ def test_a_run_with_changes_of_lane_is_the_one_of_its_bag(
     assert (answer.code, answer.doubts) == (0, [])
 
 
+def test_what_grounding_chose_is_said_back_as_it_is_in_the_bag(
+    finished: SimpleNamespace, call: Call
+) -> None:
+    prompt = (
+        'A drone flies from Union Station to Harbor Market at 80 m. Its speed is at least 10 m/s.'
+    )
+    answer = said(call, str(made(finished, prompt, '--no-repair', status='violated')))
+    assert (answer.code, answer.doubts) == (1, [])
+
+
 @pytest.mark.parametrize('name', ['bag.1', 'bag.0'])
 def test_a_verified_bag_in_the_folder_of_a_failed_run_is_no_pass(
     here: Path, finished: SimpleNamespace, failed: Path, call: Call, name: str

@@ -69,6 +69,8 @@ def restated(report: RunReport, facts: RunFacts) -> RunReport:
     """Return a report with all that follows from recording and status worked out anew."""
     clauses, rows = _judged(facts)
     spec = facts.parse.spec if facts.parse is not None else None
+    if facts.graph is not None:
+        spec = facts.graph.spec  # with what grounding chose where the request leaves it open
     changes: dict[str, object] = {
         'clauses': clauses,
         'elements': () if spec is None else said_back(spec),
