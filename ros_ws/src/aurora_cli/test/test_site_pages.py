@@ -23,7 +23,7 @@ def _lines(page: str) -> list[str]:
     return [line for block in blocks for line in block.splitlines()]
 
 
-@pytest.mark.parametrize('page', ['prompts.md', 'verdict.md'])
+@pytest.mark.parametrize('page', ['prompts.md', 'verdict.md', 'exports.md'])
 def test_the_commands_end_as_announced(
     page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: Call
 ) -> None:

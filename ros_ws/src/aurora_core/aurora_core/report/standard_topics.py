@@ -23,8 +23,9 @@ from rosbags.typesys import Stores, get_typestore
 from aurora_core.errors import BagError
 from aurora_core.geometry.frames import enu_to_geodetic
 from aurora_core.knowledge.world import WorldModel
+from aurora_core.report.export.thinning import kept_samples
 from aurora_core.trace.layout import GroundColumn, UavColumn
-from aurora_core.trace.records import LinkEventKind
+from aurora_core.trace.records import LinkEventKind, SightRecord
 from aurora_core.trace.roster import RosterEntry
 from aurora_core.trace.trace import Trace
 
@@ -35,7 +36,12 @@ EVERY_TICKS = 2
 _VERSION: Literal[9] = 9
 _AGENT_RGB, _UAV_RGB, _MESSAGE_RGB = (0.0, 0.45, 0.7), (0.84, 0.37, 0.0), (0.48, 0.25, 0.63)
 _ZONE_RGB, _BUILDING_RGB = (0.82, 0.19, 0.18), (0.7, 0.67, 0.62)
+_SEEN_RGB, _LOST_RGB = (0.11, 0.5, 0.29), (0.71, 0.11, 0.11)
 _MESSAGE_NS = 1_000_000_000
+# Of `visualization_msgs/msg/Marker`.
+_ARROW, _CUBE, _LINE_STRIP = 0, 1, 4
+# The lines of flights are off by no more than this, m.
+_FLIGHT_TOLERANCE_M = 0.5
 
 
 def write_standard_bag(folder: Path, trace: Trace, world: WorldModel) -> dict[str, int]:
@@ -68,6 +74,12 @@ class _Recorder:
         self._store: Any = get_typestore(Stores.ROS2_JAZZY)
         self._connections: dict[str, Any] = {}
         self._counts: Counter[str] = Counter()
+        self._sights: dict[tuple[str, str], list[SightRecord]] = {}
+        for record in trace.sights:
+            self._sights.setdefault((record.observer, record.target), []).append(record)
+        self._delivered = {
+            record.message for record in trace.links if record.kind is LinkEventKind.DELIVERED
+        }
 
     def record(self) -> Counter[str]:
         trace = self._trace
@@ -130,6 +142,7 @@ class _Recorder:
             transforms.append(self._transform(header, entry, place, turn))
             number = 1000 + row
             markers.append(self._body(header, number, entry, place, turn, _UAV_RGB))
+        markers += self._sight_lines(header, tick)
         markers += self._messages(header, tick)
         self._send(TRANSFORMS, 'tf2_msgs/msg/TFMessage', time_ns, transforms=transforms)
         self._send(MARKERS, 'visualization_msgs/msg/MarkerArray', time_ns, markers=markers)
@@ -204,17 +217,20 @@ class _Recorder:
         rgb: tuple[float, float, float],
     ) -> Any:  # fmt: skip
         size = (entry.length_m, entry.width_m, entry.height_m)
-        life_ns = round(3 * EVERY_TICKS * self._trace.roster.dt_s * 1e9)
         pose = self._pose(place, turn)
-        cube = 1
         return self._marker(
-            header, 'bodies', number, cube, rgb, scale=size, pose=pose, life_ns=life_ns
+            header, 'bodies', number, _CUBE, rgb, scale=size, pose=pose, life_ns=self._moving_ns
         )
 
+    @property
+    def _moving_ns(self) -> int:
+        """How long the marker of something that moves is shown: until a few others have come."""
+        return round(3 * EVERY_TICKS * self._trace.roster.dt_s * 1e9)
+
     def _ground(self) -> list[Any]:
-        """Outlines of buildings (at their height) and of no-fly zones, for the whole run."""
-        header, strip = self._header(0), 4
-        markers = []
+        """For the whole run: outlines of buildings (at their height) and of no-fly zones, ways."""
+        header, strip = self._header(0), _LINE_STRIP
+        markers = self._ways(header)
         for k, building in enumerate(self._world.buildings):
             ring = [(corner[0], corner[1], building.height_m) for corner in building.ring]
             markers.append(
@@ -233,8 +249,50 @@ class _Recorder:
             )  # fmt: skip
         return markers
 
+    def _ways(self, header: Any) -> list[Any]:
+        """Planned routes of who is on the ground, flights as they were flown."""
+        trace = self._trace
+        lines = [
+            (f'routes/{entry.body_id}', _AGENT_RGB, [(x, y, 0.1) for x, y in entry.route_xy_m])
+            for entry in trace.roster.agents
+            if entry.role != 'background'
+        ]
+        for row, entry in enumerate(trace.roster.uavs):
+            points = trace.uav[:, row, UavColumn.X : UavColumn.VX]
+            here = np.flatnonzero(np.isfinite(points).all(axis=1))
+            times_s = here.astype(np.float64) * trace.roster.dt_s
+            kept = kept_samples(times_s, points[here], _FLIGHT_TOLERANCE_M)
+            lines.append((f'flights/{entry.body_id}', _UAV_RGB, list(points[here][kept])))
+        return [
+            self._marker(
+                header, ns, 0, _LINE_STRIP, rgb, scale=(0.25, 0.0, 0.0), points=points, alpha=0.5
+            )
+            for ns, rgb, points in lines
+            if len(points) > 1
+        ]
+
+    def _sight_lines(self, header: Any, tick: int) -> list[Any]:
+        """A line from each observer to its target: green while it sees it, red while not."""
+        lines = []
+        for number, ((observer, target), records) in enumerate(self._sights.items()):
+            known = [record for record in records if record.tick <= tick]
+            ends = [self._place(name, tick) for name in (observer, target)]
+            if not known or any(end is None or not np.isfinite(end).all() for end in ends):
+                continue
+            rgb = _SEEN_RGB if known[-1].visible else _LOST_RGB
+            lines.append(
+                self._marker(
+                    header, 'sight', number, _LINE_STRIP, rgb, scale=(0.2, 0.0, 0.0), points=ends,
+                    life_ns=self._moving_ns,
+                )
+            )  # fmt: skip
+        return lines
+
     def _messages(self, header: Any, tick: int) -> list[Any]:
-        """An arrow from sender to receiver for each message sent since the last tick written."""
+        """An arrow from sender to receiver for each message sent since the last tick written.
+
+        Red where it never arrives.
+        """
         arrows = []
         for record in self._trace.links:
             if record.kind is not LinkEventKind.SENT:
@@ -246,8 +304,9 @@ class _Recorder:
                 continue
             arrows.append(
                 self._marker(
-                    header, 'messages', record.message, 0, _MESSAGE_RGB, scale=(0.4, 0.9, 0.0),
-                    points=ends, life_ns=_MESSAGE_NS,
+                    header, 'messages', record.message, _ARROW,
+                    _MESSAGE_RGB if record.message in self._delivered else _LOST_RGB,
+                    scale=(0.4, 0.9, 0.0), points=ends, life_ns=_MESSAGE_NS,
                 )
             )  # fmt: skip
         return arrows
@@ -260,8 +319,10 @@ class _Recorder:
         row = roster.agent_index(name)
         if row is None:
             return None
-        x, y = self._trace.ground[tick, row, [GroundColumn.X, GroundColumn.Y]]
-        return x, y, roster.agents[row].height_m
+        state = self._trace.ground[tick, row]
+        if not state[GroundColumn.PRESENT] > 0.5:
+            return None
+        return state[GroundColumn.X], state[GroundColumn.Y], roster.agents[row].height_m
 
     def _events(self, header: Any, tick: int, time_ns: int) -> None:
         """What the executor says happened, as a diagnostic of the body or event it is about."""
