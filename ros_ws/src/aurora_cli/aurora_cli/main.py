@@ -460,4 +460,9 @@ def _command() -> Any:
 
 def _usage_text(err: BaseException) -> str:
     text = str(err.format_message()) if hasattr(err, 'format_message') else str(err)
-    return f'{text} (try aurora --help)'
+    context = getattr(err, 'ctx', None)
+    commands = getattr(getattr(context, 'command', None), 'commands', None)
+    if commands and ' command' in text.lower():
+        text = f'{text.rstrip(".")}; there are {", ".join(sorted(commands))}'
+    path = getattr(context, 'command_path', None) or 'aurora'
+    return f'{text} (try {path} --help)'
