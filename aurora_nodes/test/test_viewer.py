@@ -94,8 +94,8 @@ def test_a_run_is_seen_in_standard_topics_while_it_goes_on(play: Partner) -> Non
         '/agents/ego/pose': 'geometry_msgs/msg/PoseStamped',
         '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
     }
-    if has_transforms():
-        kinds['/tf'] = 'tf2_msgs/msg/TFMessage'
+    assert has_transforms(), 'neither ROS nor the workspace has tf2_msgs'
+    kinds['/tf'] = 'tf2_msgs/msg/TFMessage'
     heard = {name: play.collect(_standard(kind, name)) for name, kind in kinds.items()}
     builder = message_builder(7, DT_S)
     states = {t: play.publisher(t) for t in (on.GROUND_STATE, on.UAV_STATE)}
@@ -137,6 +137,9 @@ def test_a_run_is_seen_in_standard_topics_while_it_goes_on(play: Partner) -> Non
     assert heard['/uavs/uav1/fix'][-1].altitude == 30.0
     assert heard['/agents/ego/pose'][-1].header.frame_id == 'map'
     assert [s.name for s in heard['/diagnostics'][0].status] == ['e1']
+    frames = {t.child_frame_id: t for t in heard['/tf'][-1].transforms}
+    assert set(frames) == {'ego', 'uav1'}
+    assert frames['uav1'].transform.translation.z == 30.0
     namespaces = {marker.ns for array in heard['/markers'] for marker in array.markers}
     assert {'bodies', 'sight'} <= namespaces
     # Fewer than there were ticks: a viewer is not worth a core.
