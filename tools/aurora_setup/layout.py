@@ -78,7 +78,7 @@ class Layout:
         kind = 'system-dev' if self.ros == SYSTEM else 'dev'
         return self.root / 'requirements' / f'{kind}-py{self.python_tag}.txt'
 
-    def has_own(self, name: str) -> bool:
+    def ros_has(self, name: str) -> bool:
         """Whether ROS itself brings a package along: a copy of ours would only hide it."""
         here = SYSTEM_PREFIX / 'share' / name if self.ros == SYSTEM else self.site_packages / name
         return here.is_dir()
@@ -104,7 +104,7 @@ class Layout:
                     found[_package_name(manifest)] = manifest.parent.resolve()
                     if manifest.parent == entry:
                         break  # a package holds no packages
-        return {k: v for k, v in sorted(found.items()) if k not in COPIES or not self.has_own(k)}
+        return {k: v for k, v in sorted(found.items()) if k not in COPIES or not self.ros_has(k)}
 
 
 def _package_name(manifest: Path) -> str:
