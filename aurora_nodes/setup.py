@@ -29,6 +29,7 @@ setup(
             'recorder = aurora_nodes.recorder:main',
             'replay = aurora_nodes.replay:main',
             'together = aurora_nodes.together:main',
+            'viewer = aurora_nodes.viewer:main',
         ]
     },
 )

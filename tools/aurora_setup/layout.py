@@ -13,6 +13,8 @@ from console import SetupError
 WHEELS = 'wheels'
 SYSTEM = 'system'
 SYSTEM_PREFIX = Path('/opt/ros/jazzy')
+# Packages of ROS 2 of which the workspace holds a copy, for where they are absent.
+COPIES = ('tf2_msgs',)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,8 +78,15 @@ class Layout:
         kind = 'system-dev' if self.ros == SYSTEM else 'dev'
         return self.root / 'requirements' / f'{kind}-py{self.python_tag}.txt'
 
+    def ros_has(self, name: str) -> bool:
+        """Whether ROS itself brings a package along: a copy of ours would only hide it."""
+        here = SYSTEM_PREFIX / 'share' / name if self.ros == SYSTEM else self.site_packages / name
+        return here.is_dir()
+
     def packages(self) -> dict[str, Path]:
         """Find the workspace's packages, through the links in ``ros_ws/src``.
+
+        Copies of what ROS may lack (`COPIES`) are left out where it does not.
 
         Returns:
             Folder (without links) by package name, sorted by name.
@@ -95,7 +104,7 @@ class Layout:
                     found[_package_name(manifest)] = manifest.parent.resolve()
                     if manifest.parent == entry:
                         break  # a package holds no packages
-        return dict(sorted(found.items()))
+        return {k: v for k, v in sorted(found.items()) if k not in COPIES or not self.ros_has(k)}
 
 
 def _package_name(manifest: Path) -> str:

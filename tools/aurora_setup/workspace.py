@@ -16,7 +16,7 @@ from layout import SYSTEM, SYSTEM_PREFIX, Layout
 from stamps import digest_files, digest_package, read_stamp, write_stamp
 
 WORKSPACE_STAMP = 'workspace.json'
-INTERFACES = 'aurora_msgs'
+INTERFACES = ('aurora_msgs', 'tf2_msgs')
 _BASE = '/base'
 
 
@@ -30,8 +30,9 @@ def ensure_workspace(layout: Layout) -> None:
     wanted = {name: digest_package(folder) for name, folder in packages.items()}
     wanted[_BASE] = digest_files([layout.run_lock, layout.workspace / 'colcon_defaults.yaml'])
     wanted[_BASE] += ' ' + ' '.join(run_key(layout).values())
-    if INTERFACES in wanted:
-        wanted[INTERFACES] += digest_files([_hook(layout)])
+    for name in INTERFACES:
+        if name in wanted:
+            wanted[name] += digest_files([_hook(layout)])
     stamp = layout.install / WORKSPACE_STAMP
     built = read_stamp(stamp)
     if built == wanted:
@@ -69,13 +70,14 @@ def _write_environment(layout: Layout, packages: dict[str, Path]) -> None:
 
 
 def _build(layout: Layout, names: list[str]) -> None:
-    rest = [name for name in names if name != INTERFACES]
-    if INTERFACES in names:
-        # Else a message that was renamed would stay importable.
-        packages = f'lib/python{layout.python_tag}/site-packages'
+    interfaces = [name for name in names if name in INTERFACES]
+    rest = [name for name in names if name not in INTERFACES]
+    # Else a message that was renamed would stay importable.
+    packages = f'lib/python{layout.python_tag}/site-packages'
+    for name in interfaces:
         for place in ('share', 'include', packages):
-            shutil.rmtree(layout.install / place / INTERFACES, ignore_errors=True)
-    if INTERFACES in names and not _build_interfaces_quickly(layout):
+            shutil.rmtree(layout.install / place / name, ignore_errors=True)
+    if interfaces and not _build_interfaces_quickly(layout, interfaces):
         rest = names
     if rest and _colcon(layout, rest) != 0:
         log = _log(layout)
@@ -85,14 +87,16 @@ def _build(layout: Layout, names: list[str]) -> None:
         )
 
 
-def _build_interfaces_quickly(layout: Layout) -> bool:
-    """Build the interfaces the short way, which depends on how the wheels' generators work."""
+def _build_interfaces_quickly(layout: Layout, names: list[str]) -> bool:
+    """Build interfaces the short way, which depends on how the wheels' generators work."""
     if layout.ros == SYSTEM:
         return False
-    if _colcon(layout, [INTERFACES], f'-DCMAKE_PROJECT_{INTERFACES}_INCLUDE={_hook(layout)}') == 0:
+    hooks = [f'-DCMAKE_PROJECT_{name}_INCLUDE={_hook(layout)}' for name in names]
+    if _colcon(layout, names, *hooks) == 0:
         return True
-    say(f'building {INTERFACES} the short way failed: trying the plain one')
-    shutil.rmtree(layout.workspace / 'build' / INTERFACES, ignore_errors=True)
+    say(f'building {", ".join(names)} the short way failed: trying the plain one')
+    for name in names:
+        shutil.rmtree(layout.workspace / 'build' / name, ignore_errors=True)
     return False
 
 

@@ -151,3 +151,21 @@ def test_a_command_leaves_its_output_in_the_log(tmp_path: Path) -> None:
 def test_a_command_that_does_not_exist_is_reported(tmp_path: Path) -> None:
     with pytest.raises(SetupError, match='no-such-tool is missing'):
         run_logged(['no-such-tool'], tmp_path / 'a.log', label='a')
+
+
+def test_a_copy_is_built_only_where_ros_lacks_the_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ('tf2_msgs', 'own'):
+        manifest = tmp_path / 'ros_ws' / 'src' / name / 'package.xml'
+        manifest.parent.mkdir(parents=True)
+        manifest.write_text(f'<package><name>{name}</name></package>')
+    layout = _layout(tmp_path)
+    assert set(layout.packages()) == {'tf2_msgs', 'own'}
+    (layout.site_packages / 'tf2_msgs').mkdir(parents=True)
+    assert set(layout.packages()) == {'own'}
+    # Of a full install another place counts.
+    monkeypatch.setattr('layout.SYSTEM_PREFIX', tmp_path / 'jazzy')
+    assert set(_layout(tmp_path, 'system', '3.12').packages()) == {'tf2_msgs', 'own'}
+    (tmp_path / 'jazzy' / 'share' / 'tf2_msgs').mkdir(parents=True)
+    assert set(_layout(tmp_path, 'system', '3.12').packages()) == {'own'}

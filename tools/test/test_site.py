@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from site_pages import captions, vocabulary_entries
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -57,6 +59,20 @@ def test_the_reference_has_every_interface(site: Path) -> None:
         for path in (ROOT / 'aurora_msgs' / kind).iterdir():
             assert f'id="{path.stem.lower()}"' in text, path
     assert 'last tick stored' in text
+
+
+def test_every_word_of_the_vocabulary_has_its_picture(site: Path) -> None:
+    text = (site / 'vocabulary.html').read_text(encoding='utf-8')
+    entries = list(vocabulary_entries())
+    assert len(entries) > 20
+    told = captions()
+    for entry in entries:
+        # Missing: python tools/vocabulary_pictures.py draws it.
+        assert (site / 'images' / 'vocabulary' / entry.image).is_file(), entry.prompt
+        assert f'images/vocabulary/{entry.image}' in text
+        assert told[entry.image]
+    pictures = (ROOT / 'docs' / 'images' / 'vocabulary').glob('*.png')
+    assert {path.name for path in pictures} == {entry.image for entry in entries}
 
 
 def test_the_quick_start_is_the_readme(site: Path) -> None:

@@ -4,21 +4,39 @@
 
 from __future__ import annotations
 
+import itertools
+import json
 import queue
 import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import numpy as np
 import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action, ActionError
 from mavsdk.plugins.geofence import Circle, FenceType, Geofence, GeofenceData, Point
 from mavsdk.plugins.mission import Mission, MissionItem, MissionPlan
+from mavsdk.plugins.mission_raw import MissionRaw
 from mavsdk.plugins.offboard import Offboard, OffboardError, PositionNedYaw, VelocityNedYaw
 from mavsdk.plugins.param import Param, ParamError
 from mavsdk.plugins.telemetry import FlightMode, LandedState, Telemetry
 
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import load_limits
+from aurora_core.knowledge.world import Wind, WorldModel
+from aurora_core.report.export.flight_plan import flight_plan
+from aurora_core.trace.layout import (
+    UAV_COMMAND_WIDTH,
+    UAV_WIDTH,
+    UavColumn,
+    UavCommandColumn,
+    UavMode,
+    UavPhase,
+)
+from aurora_core.trace.roster import Roster, RosterEntry
+from aurora_core.trace.trace import Trace
 from aurora_uav_sim.mavlink_server import SimServer
 from aurora_uav_sim.settings import PARAMETERS
 from aurora_uav_sim.vehicle import Vehicle
@@ -58,6 +76,7 @@ class Pilot:
         assert system is not None
         self.action, self.telemetry = Action(system), Telemetry(system)
         self.mission, self.geofence = Mission(system), Geofence(system)
+        self.mission_raw = MissionRaw(system)
         self.offboard, self.param = Offboard(system), Param(system)
         self.modes: list[FlightMode] = []
         self.texts: list[str] = []
@@ -168,6 +187,68 @@ def test_a_mission_of_five_items_and_the_way_home(pilot: Pilot) -> None:
     assert flown[-1] == FlightMode.RETURN_TO_LAUNCH
     pilot.mission.clear_mission()
     assert pilot.vehicle.pilot.mission.items == ()
+
+
+# Corners of a recorded flight, ENU, m.
+CORNERS = ((0.0, 0.0, 10.0), (0.0, 25.0, 10.0), (20.0, 25.0, 14.0))
+
+
+def _recorded_flight() -> tuple[Trace, WorldModel]:
+    """Up, 5 m/s past the corners with 6 s at the second one, and down: dt 0.1 s."""
+    legs = [np.linspace(a, b, 50, endpoint=False) for a, b in itertools.pairwise(CORNERS)]
+    up = np.linspace((0.0, 0.0, 0.0), CORNERS[0], 50, endpoint=False)
+    down = np.linspace(CORNERS[-1], (*CORNERS[-1][:2], 0.0), 100)
+    places = np.concatenate([up, legs[0], np.tile(CORNERS[1], (60, 1)), legs[1], down])
+    uav = np.zeros((len(places), 1, UAV_WIDTH))
+    uav[:, 0, : UavColumn.VX] = places
+    uav[:, 0, UavColumn.LANDED] = places[:, 2] <= 0.0
+    commands = np.zeros((len(places), 1, UAV_COMMAND_WIDTH))
+    commands[:50, 0, UavCommandColumn.PHASE] = UavPhase.ASCENT
+    commands[50:-100, 0, UavCommandColumn.PHASE] = UavPhase.MISSION
+    commands[-100:, 0, UavCommandColumn.PHASE] = UavPhase.LANDING
+    commands[-100:, 0, UavCommandColumn.MODE] = UavMode.LAND
+    entry = RosterEntry(
+        body_id='uav1', type_name='uav', is_person=False, system_id=1, length_m=0.7,
+        width_m=0.7, height_m=0.3,
+    )  # fmt: skip
+    trace = Trace(
+        roster=Roster(dt_s=0.1, agents=(), uavs=(entry,)),
+        ground=np.zeros((len(places), 0, 7)),
+        uav=uav,
+        uav_commands=commands,
+        ground_commands=((),) * len(places),
+    )
+    world = WorldModel(
+        map_name='field', map_digest='d' * 64, origin_lat_deg=LATITUDE_DEG,
+        origin_lon_deg=LONGITUDE_DEG, weather='clear', time_of_day='noon', wind=Wind(),
+        buildings=(), no_fly_zones=(), surfaces=(), lanes=(), signals=(),
+        limits=load_limits(config_path('limits.json')),
+    )  # fmt: skip
+    return trace, world
+
+
+def test_an_exported_plan_is_read_by_its_importer_and_flown(pilot: Pilot) -> None:
+    trace, world = _recorded_flight()
+    text = json.dumps(flight_plan(trace, world, 0))
+    read = pilot.mission_raw.import_qgroundcontrol_mission_from_string(text)
+    commands = [i.command for i in read.mission_items]
+    assert (commands[0], commands[-1]) == (22, 21)
+    pilot.mission_raw.upload_mission(read.mission_items)
+    pilot.wait('not ready', lambda: pilot.telemetry.health().is_armable)
+    pilot.action.arm()
+    pilot.mission_raw.start_mission()
+    body = pilot.vehicle.autopilot.body
+    nearest = [1e9] * len(CORNERS)
+
+    def home() -> bool:
+        for k, corner in enumerate(CORNERS):
+            off = np.linalg.norm(np.subtract((body.x, body.y, body.z), corner))
+            nearest[k] = min(nearest[k], float(off))
+        return nearest[-1] < 3.0 and not pilot.telemetry.armed()
+
+    pilot.wait('flown and landed', home)
+    assert max(nearest) < 2.0
+    assert (body.x, body.y) == pytest.approx(CORNERS[-1][:2], abs=1.0)
 
 
 def test_take_off_go_to_hold_land(pilot: Pilot) -> None:

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The same nodes as `ros2 run aurora_bringup up`, for full ROS 2 installs that have `launch`.
+"""The same nodes as `ros2 run aurora_bringup up`: ros2 launch aurora_bringup aurora.launch.py
 
-Nothing in AURORA depends on this file: the wheels have no `launch`.
+`up` also starts a node again that died; nothing in AURORA depends on this file.
 """
 
 from launch import LaunchDescription

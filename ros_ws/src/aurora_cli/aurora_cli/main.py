@@ -16,6 +16,7 @@ from typing import Annotated, Any, NoReturn, cast
 import typer
 
 from aurora_cli.collector import relax_collector
+from aurora_cli.export_commands import add_export_commands
 from aurora_cli.finish import Json, Quiet, finish
 from aurora_cli.help_commands import add_help_commands
 from aurora_cli.map_commands import maps
@@ -38,6 +39,7 @@ add_help_commands(app)
 app.add_typer(maps, name='map')
 app.add_typer(certificate, name='certificate')
 app.add_typer(bag, name='bag')
+add_export_commands(app, bag)
 bench = typer.Typer(help='Measurements over prompt files.', rich_markup_mode=None)
 app.add_typer(bench, name='bench')
 
@@ -265,26 +267,6 @@ def recover_recording(
     finish(command, as_json=as_json)
 
 
-@bag.command('standard')
-def standard_bag(
-    run_or_bag: RunOrBag,
-    out: Annotated[
-        Path | None,
-        typer.Option('-o', '--out', metavar='FOLDER', help='Default: <bag>.standard.'),
-    ] = None,
-    iteration: Iteration = None,
-    as_json: Json = False,
-) -> None:
-    """Write a run as a bag of standard topics, for Foxglove, RViz and other tools."""
-
-    def command() -> int:
-        from aurora_cli.commands.standard_bag import standard_command
-
-        return standard_command(run_or_bag, out, iteration, as_json=as_json)
-
-    finish(command, as_json=as_json)
-
-
 @app.command('picture')
 def draw_run(
     run_or_bag: RunOrBag,
@@ -478,4 +460,9 @@ def _command() -> Any:
 
 def _usage_text(err: BaseException) -> str:
     text = str(err.format_message()) if hasattr(err, 'format_message') else str(err)
-    return f'{text} (try aurora --help)'
+    context = getattr(err, 'ctx', None)
+    commands = getattr(getattr(context, 'command', None), 'commands', None)
+    if commands and ' command' in text.lower():
+        text = f'{text.rstrip(".")}; there are {", ".join(sorted(commands))}'
+    path = getattr(context, 'command_path', None) or 'aurora'
+    return f'{text} (try {path} --help)'

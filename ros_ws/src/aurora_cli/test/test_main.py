@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -153,3 +155,20 @@ def test_the_engine_ros_without_ros_says_what_to_do(
     monkeypatch.chdir(tmp_path)
     assert run_command_line(['run', 'A drone hovers.', '--engine', 'ros']) == 4
     assert 'source ros_ws/setup.bash' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'wanted'),
+    [
+        (('bag',), 'there are recover, standard (try aurora bag --help)'),
+        (('bag', 'burn'), 'there are recover, standard (try aurora bag --help)'),
+        (('rnu',), "Did you mean 'run'?; there are bag, bench"),
+        (('export',), "Missing argument 'RUN_OR_BAG'. (try aurora export --help)"),
+    ],
+)
+def test_a_wrong_command_is_answered_with_the_right_ones(
+    call: Callable[..., SimpleNamespace], arguments: tuple[str, ...], wanted: str
+) -> None:
+    done = call(*arguments)
+    assert done.code == 64
+    assert wanted in done.err

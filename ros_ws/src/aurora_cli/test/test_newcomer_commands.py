@@ -16,6 +16,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+import yaml
 
 import aurora
 from aurora_cli.commands.examples import installed_examples
@@ -25,6 +26,11 @@ from aurora_core.report.versions import AURORA_VERSION
 
 Call = Callable[..., SimpleNamespace]
 EXAMPLES = installed_examples()
+# What the page of the vocabulary shows.
+_VOCABULARY = Path(__file__).resolve().parents[4] / 'docs' / 'vocabulary.yaml'
+PICTURED = [
+    p for group in yaml.safe_load(_VOCABULARY.read_text()).values() for p in group.values()
+]
 
 
 def test_the_version_names_what_decides_results(call: Call) -> None:
@@ -66,7 +72,7 @@ def test_examples_are_listed_by_category_and_one_goes_into_a_pipe(call: Call) ->
         assert 'there are' in done.err
 
 
-@pytest.mark.parametrize('prompt', [prompt for _, prompt in EXAMPLES])
+@pytest.mark.parametrize('prompt', dict.fromkeys([*(p for _, p in EXAMPLES), *PICTURED]))
 def test_every_example_is_verified(prompt: str, tmp_path: Path) -> None:
     run = aurora.run(prompt, out=tmp_path)
     assert run.status is Status.VERIFIED, run.report.summary

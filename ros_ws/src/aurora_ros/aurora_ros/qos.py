@@ -54,6 +54,22 @@ CLOCK_HISTORY = QoSProfile(
     durability=DurabilityPolicy.VOLATILE,
 )
 
+# A stream, for who only looks: its writer never waits for such a reader.
+GLIMPSE = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=50,
+    reliability=ReliabilityPolicy.BEST_EFFORT,
+    durability=DurabilityPolicy.VOLATILE,
+)
+
+# Standard topics, as RViz, Foxglove and rosbag2 ask for them by default.
+VIEW = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=50,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.VOLATILE,
+)
+
 # Any reliable topic, for a reader that wants to know who writes and not what.
 UNHEARD = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,

@@ -72,6 +72,7 @@ COMMANDS: dict[str, Verb | Group] = {
             'show': Verb('interface.show', 'Output the interface definition'),
         },
     ),
+    'launch': Verb('launching.command', 'Run a launch file'),
     'lifecycle': Group(
         'Various lifecycle related sub-commands',
         {
@@ -91,6 +92,9 @@ COMMANDS: dict[str, Verb | Group] = {
     'param': Group(
         'Various param related sub-commands',
         {
+            'describe': Verb(
+                'param.describe', 'Show descriptive information about declared parameters'
+            ),
             'dump': Verb(
                 'param.dump', 'Show all of the parameters of a node in a YAML file format'
             ),
@@ -122,6 +126,7 @@ COMMANDS: dict[str, Verb | Group] = {
     'topic': Group(
         'Various topic related sub-commands',
         {
+            'bw': Verb('topic.bw', 'Display bandwidth used by topic'),
             'echo': Verb('topic.echo', 'Output messages from a topic'),
             'find': Verb('find', 'Output a list of available topics of a given type'),
             'hz': Verb('topic.hz', 'Print the average receiving rate to screen'),

@@ -57,6 +57,16 @@ def test_list_of_one_node_and_of_all(ros2: Ros2) -> None:
     assert typed.stdout == '  food.hay_kg (type: double)\n  food.names (type: string array)\n'
 
 
+def test_describe_tells_type_words_and_limits(ros2: Ros2) -> None:
+    done = ros2('param', 'describe', '/zoo/partner', 'legs', 'food.hay_kg')
+
+    assert done.stdout == (
+        'Parameter name: legs\n  Type: integer\n  Description: of all animals\n  Constraints:\n'
+        '    Min value: 0\n    Max value: 100\n    Step: 2\n'
+        'Parameter name: food.hay_kg\n  Type: double\n  Constraints:\n'
+    )
+
+
 def test_dump_is_a_parameter_file(ros2: Ros2) -> None:
     dumped = yaml.safe_load(ros2('param', 'dump', '/zoo/partner').stdout)
 
@@ -73,6 +83,7 @@ def test_nodes_and_parameters_that_are_not_there(ros2: Ros2) -> None:
     for arguments in (
         ('param', 'get', '/zoo/ghost', 'legs'),
         ('param', 'list', '/zoo/ghost'),
+        ('param', 'describe', '/zoo/ghost', 'legs'),
         ('lifecycle', 'get', '/zoo/partner'),
         ('lifecycle', 'set', '/zoo/ghost', 'configure'),
     ):

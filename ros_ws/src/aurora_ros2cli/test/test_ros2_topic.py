@@ -93,6 +93,22 @@ def test_hz_prints_the_rate_until_ctrl_c(started: Started) -> None:
     assert 'Traceback' not in err
 
 
+def test_bw_prints_the_bandwidth_until_ctrl_c(started: Started) -> None:
+    process = started('topic', 'bw', '/zoo/beat')
+    assert process.stdout is not None
+
+    lines = [process.stdout.readline() for _ in range(3)]
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=60)
+
+    assert lines[0] == 'Subscribed to [/zoo/beat]\n'
+    # "tick" as a CDR string: 4 bytes of encapsulation, its length, five characters, padded or not.
+    assert re.fullmatch(r'\d+ B/s from \d+ messages\n', lines[1])
+    assert re.fullmatch(r'\tMessage size mean: (1[3-6]) B min: \1 B max: \1 B\n', lines[2])
+    assert process.returncode == 2
+    assert 'Traceback' not in err
+
+
 def test_info_counts_and_describes(ros2: Ros2) -> None:
     short = ros2('topic', 'info', '/zoo/mixed').stdout
     assert short == 'Type: std_msgs/msg/String\nPublisher count: 2\nSubscription count: 0\n'

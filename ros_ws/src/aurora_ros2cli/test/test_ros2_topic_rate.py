@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The arithmetic of `ros2 topic hz`."""
+"""The arithmetic of `ros2 topic hz` and `ros2 topic bw`."""
 
 from __future__ import annotations
 
+from aurora_ros2cli.topic.bandwidth import BandwidthMeter
 from aurora_ros2cli.topic.rate import RateMeter
 
 MS = 1_000_000
@@ -44,3 +45,18 @@ def test_a_clock_that_goes_back_starts_anew() -> None:
         meter.arrived(time_ms * MS)
         last = meter.report()
     assert str(last).startswith('average rate: 1.154\n')
+
+
+def test_bandwidth_is_what_came_since_the_first_message_that_counts() -> None:
+    meter = BandwidthMeter(window=3)
+    for second, size in enumerate((9000, 1000, 2000, 3000)):
+        meter.arrived(second * 1000 * MS, size)
+        if second == 0:
+            assert meter.report(500 * MS) is None
+
+    # The first one is out of the window: 6000 bytes from 1 s to 4 s.
+    said = '2.00 KB/s from 3 messages\n\tMessage size mean: 2.00 KB min: 1.00 KB max: 3.00 KB'
+    assert meter.report(4000 * MS) == said
+    assert str(meter.report(40_000 * MS)).startswith('154 B/s from 3')
+    assert meter.report(0) is None
+    assert meter.report(5000 * MS) is None

@@ -12,6 +12,7 @@ from typing import Any
 
 import rclpy
 from geometry_msgs.msg import PoseStamped
+from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
@@ -77,7 +78,10 @@ def accept(request: Any) -> GoalResponse:
 def main() -> None:
     rclpy.init()
     partner = rclpy.create_node('partner', namespace='/zoo')
-    partner.declare_parameter('legs', 4)
+    limits = IntegerRange(from_value=0, to_value=100, step=2)
+    partner.declare_parameter(
+        'legs', 4, ParameterDescriptor(description='of all animals', integer_range=[limits])
+    )
     partner.declare_parameter('food.hay_kg', 2.5)
     partner.declare_parameter('food.names', ['hay', 'oats'])
     partner.create_service(SetBool, 'gate', set_bool)

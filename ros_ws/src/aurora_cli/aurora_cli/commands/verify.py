@@ -70,7 +70,7 @@ def _write_plots(content: BagContent, agsg: Agsg, verdict: Verdict, folder: Path
         ReportError: The folder cannot be written.
     """
     # Imported here: a verdict alone needs no drawing library.
-    from aurora_core.report.picture.condition_plot import draw_condition
+    from aurora_core.report.picture.condition_plot import draw_condition, flight_of
     from aurora_core.report.picture.draw import png_bytes, svg_bytes
 
     try:
@@ -82,9 +82,11 @@ def _write_plots(content: BagContent, agsg: Agsg, verdict: Verdict, folder: Path
     spec = agsg.realised_spec
     signals = signals_for_plot(context_of(content.trace, content.world, agsg.conditions, spec))
     results = {result.id: result for result in verdict.results}
+    bodies = {condition.id: condition.of for condition in agsg.conditions}
     for number, signal in enumerate(signals, start=1):
         say(f'aurora: plot {number} of {len(signals)}: {signal.condition_id}')
-        figure = draw_condition(signal, results[signal.condition_id])
+        flight = flight_of(content.trace, bodies[signal.condition_id])
+        figure = draw_condition(signal, results[signal.condition_id], flight)
         # Ids out of a bag must not name another folder.
         name = f'{number:03}_{re.sub(r"[^A-Za-z0-9._-]", "_", signal.condition_id)}'
         write_file(folder / f'{name}.png', png_bytes(figure))

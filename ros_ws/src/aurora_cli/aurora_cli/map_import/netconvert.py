@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from aurora_core.errors import MapError
+from aurora_core.errors import MapError, ReportError
 
 # A city centre takes it 2 s and 0.1 GiB, a city of 400,000 nodes 21 s and 0.5 GiB; one digit that
 # is another one can have it lay out lanes without end.
@@ -84,6 +84,30 @@ def run_netconvert(
             hint='make room, or name another folder with AURORA_MAPS',
         )
     return out
+
+
+def write_opendrive(network: Path, out: Path) -> None:
+    """Write a network as OpenDRIVE, in its own coordinates.
+
+    Raises:
+        ReportError: netconvert is missing, fails or has no room.
+    """
+    command = [_program(), '-s', str(network), '--opendrive-output', str(out)]
+    try:
+        done = subprocess.run(
+            ['/bin/sh', '-c', _LIMITED, 'netconvert', *command],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors='replace',
+            timeout=_LIMIT_S,
+            check=False,
+        )
+    except subprocess.TimeoutExpired as err:
+        raise ReportError(f'netconvert did not write {out} in {_LIMIT_S:.0f} s') from err
+    if done.returncode != 0 or not out.is_file():
+        said = (done.stderr.strip().splitlines() or ['it says nothing'])[0]
+        raise ReportError(f'netconvert cannot write {out}: {said}', hint=_HINT)
 
 
 def _is_whole(network: Path) -> bool:

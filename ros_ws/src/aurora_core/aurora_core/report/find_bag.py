@@ -18,6 +18,8 @@ from aurora_core.trace.bag_metadata import METADATA
 # As `RunFolder.bag_path` writes it: no leading zeroes, no digits of other scripts.
 _BAG = re.compile(r'bag\.(0|[1-9][0-9]{0,8})')
 _DEFAULT_ROOT = Path('runs')
+# So many runs are named where another name was given.
+_SHOWN = 3
 # One of these beside a bag, or the name of the folder, makes it a run folder.
 _OF_A_RUN = (MANIFEST, PROMPT, REPORT, *(f'{stage.value}.*.json' for stage in StageFile))
 
@@ -52,7 +54,7 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
     if not path.exists() and (_DEFAULT_ROOT / text).is_dir():
         path = _DEFAULT_ROOT / text
     if not path.exists():
-        raise BagError(f'{text} is neither a run folder, nor a run in runs/, nor a bag')
+        raise BagError(f'{text} is neither a run folder, nor a run in runs/, nor a bag{_others()}')
     if path.is_file() and path.name == METADATA:
         path = path.parent
     is_named = not path.is_dir()
@@ -67,6 +69,14 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
         number = int(match[1]) if match is not None and run is not None else None
         return FoundBag(bag=path, run=run, iteration=number)
     return _in_run(path, iteration)
+
+
+def _others() -> str:
+    """Return which runs there are, in words: the last few of `runs/`."""
+    found = sorted(p.name for p in _DEFAULT_ROOT.glob('*') if is_run_id(p.name))
+    if not found:
+        return '; there is no run in runs/ here'
+    return f'; the last in runs/: {", ".join(reversed(found[-_SHOWN:]))}'
 
 
 def _place(folder: Path) -> Path:

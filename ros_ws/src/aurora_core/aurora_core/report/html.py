@@ -67,6 +67,7 @@ def report_html(
         kind=_KINDS[report.status],
         pieces=prompt_pieces(report.prompt, report.clauses),
         lost=[clause for clause in report.clauses if clause.status.is_open],
+        failed=[row for row in report.conditions if not row.satisfied],
         stated=[row for row in report.conditions if row.source],
         safety=[row for row in report.conditions if not row.source],
         picture=picture,

@@ -61,3 +61,16 @@ def test_what_is_left_of_a_renamed_run_makes_it_one(tmp_path: Path, left: str) -
     assert find_bag(str(folder / 'bag.0'), None).run is None
     (folder / left).write_text('')
     assert find_bag(str(folder / 'bag.0'), None).run == folder
+
+
+def test_another_name_is_answered_with_the_last_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(BagError, match='there is no run in runs/ here'):
+        find_bag('typo', None)
+    ids = [f'2026013{day}T120000Z-0a1b2c' for day in (0, 1)]
+    for name in (*ids, 'notes'):
+        (tmp_path / 'runs' / name).mkdir(parents=True)
+    with pytest.raises(BagError, match=f'the last in runs/: {ids[1]}, {ids[0]}$'):
+        find_bag('typo', None)

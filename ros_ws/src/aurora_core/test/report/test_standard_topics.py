@@ -19,7 +19,7 @@ from rosbags.highlevel import AnyReader
 from aurora_core.errors import BagError
 from aurora_core.report.standard_topics import EVERY_TICKS, write_standard_bag
 from aurora_core.trace.layout import GroundColumn, UavColumn
-from aurora_core.trace.records import LinkEventKind, LinkRecord, LossReason
+from aurora_core.trace.records import LinkEventKind, LinkRecord, LossReason, SightRecord
 
 VIEWERS = Path(__file__).resolve().parents[5] / 'config' / 'viewers'
 
@@ -108,6 +108,39 @@ def test_a_message_is_an_arrow_between_those_who_speak(
     assert time_ns == 5_000_000_000
     assert (arrow.points[0].x, arrow.points[0].z) == tuple(trace.uav[100, 0, [0, 2]])
     assert arrow.points[1].x == trace.ground[100, 0, 0]
+    # It was sent and never arrived: red.
+    assert arrow.color.r > 2.0 * arrow.color.b
+
+
+def test_ways_and_sight_lines_can_be_seen(make: SimpleNamespace, tmp_path: Path) -> None:
+    trace = make.trace()
+    uav, agent = trace.roster.uavs[0].body_id, trace.roster.agents[0].body_id
+    sights = tuple(
+        SightRecord(tick=tick, observer=uav, target=agent, visible=seen, slant_range_m=40.0)
+        for tick, seen in ((100, True), (200, False))
+    )
+    route = ((0.0, 0.0), (50.0, 0.0), (50.0, 20.0))
+    roster = replace(trace.roster, agents=(replace(trace.roster.agents[0], route_xy_m=route),))
+    ground = trace.ground.copy()
+    ground[300:, 0, GroundColumn.PRESENT] = 0.0
+    seen_run = replace(trace, sights=sights, roster=roster, ground=ground)
+    write_standard_bag(tmp_path / 'b', seen_run, make.world())
+    shown = [
+        (time_ns * 1e-9, marker)
+        for time_ns, message in _messages(tmp_path / 'b', '/markers')
+        for marker in message.markers
+    ]
+    (planned,) = (m for _, m in shown if m.ns == f'routes/{agent}')
+    assert [(p.x, p.y) for p in planned.points] == list(route)
+    (flown,) = (m for _, m in shown if m.ns == f'flights/{uav}')
+    assert max(p.z for p in flown.points) == pytest.approx(trace.uav[:, 0, 2].max(), abs=0.5)
+    lines = [(time_s, m) for time_s, m in shown if m.ns == 'sight']
+    # From what is first known on, and no longer than both are there.
+    assert (lines[0][0], lines[-1][0]) == (5.0, pytest.approx(14.9))
+    green = [m.color.g > m.color.r for _, m in lines]
+    assert green == [time_s < 10.0 for time_s, _ in lines]
+    tick = round(lines[20][0] / trace.roster.dt_s)
+    assert lines[20][1].points[1].x == trace.ground[tick, 0, GroundColumn.X]
 
 
 def test_an_existing_folder_is_left_alone(folder: Path, make: SimpleNamespace) -> None:

@@ -7,28 +7,18 @@ from __future__ import annotations
 import argparse
 import sys
 
-from rcl_interfaces.msg import ParameterType
-from rcl_interfaces.srv import DescribeParameters
 from rclpy.node import Node
 
-from aurora_ros2cli.calling import absolute, add_node_arguments, call
+from aurora_ros2cli.calling import absolute, add_node_arguments
 from aurora_ros2cli.errors import CliError
 from aurora_ros2cli.graph import node_names, settled_node
 from aurora_ros2cli.output import emit
-from aurora_ros2cli.param.services import LIST, list_parameters
-
-_TYPE_WORDS = {
-    ParameterType.PARAMETER_BOOL: 'boolean',
-    ParameterType.PARAMETER_INTEGER: 'integer',
-    ParameterType.PARAMETER_DOUBLE: 'double',
-    ParameterType.PARAMETER_STRING: 'string',
-    ParameterType.PARAMETER_BYTE_ARRAY: 'byte array',
-    ParameterType.PARAMETER_BOOL_ARRAY: 'boolean array',
-    ParameterType.PARAMETER_INTEGER_ARRAY: 'integer array',
-    ParameterType.PARAMETER_DOUBLE_ARRAY: 'double array',
-    ParameterType.PARAMETER_STRING_ARRAY: 'string array',
-    ParameterType.PARAMETER_NOT_SET: 'not set',
-}
+from aurora_ros2cli.param.services import (
+    LIST,
+    TYPE_WORDS,
+    describe_parameters,
+    list_parameters,
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -80,7 +70,6 @@ def _lines(node: Node, other: str, arguments: argparse.Namespace) -> list[str]:
     names = list_parameters(node, other, arguments.param_prefixes)
     if not arguments.param_type:
         return names
-    request = DescribeParameters.Request(names=names)
-    answer = call(node, DescribeParameters, f'{other}/describe_parameters', request)
-    kinds = {each.name: _TYPE_WORDS.get(each.type, 'unknown') for each in answer.descriptors}
+    found = describe_parameters(node, other, names)
+    kinds = {each.name: TYPE_WORDS.get(each.type, 'unknown') for each in found}
     return [f'{name} (type: {kinds.get(name, "unknown")})' for name in names]

@@ -15,8 +15,8 @@ from aurora_ros2cli.topic.rate import RateMeter
 from aurora_ros2cli.topic.subscribing import (
     PRESET,
     add_topic_arguments,
+    awaited_type,
     message_filter,
-    only_type,
 )
 from aurora_ros2cli.types import load_type
 
@@ -54,11 +54,7 @@ def main(arguments: argparse.Namespace) -> int:
     simulated = arguments.use_sim_time and not arguments.wall_time
     with settled_node(arguments) as node:
         topic = full_name(node, arguments.topic_name)
-        type_name = only_type(node, topic)
-        if type_name is None:
-            emit(f'WARNING: topic [{topic}] does not appear to be published yet')
-            spin_until(node, lambda: only_type(node, topic) is not None)
-            type_name = str(only_type(node, topic))
+        type_name = awaited_type(node, topic)
         meter = RateMeter(arguments.window)
 
         def hear(message: Any) -> None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What `ros2 topic echo` and `ros2 topic hz` share: the type and the profile of a topic."""
+"""What `ros2 topic echo`, `hz` and `bw` share: the type and the profile of a topic."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from typing import Any
 from rclpy.node import Node
 
 from aurora_ros2cli.errors import CliError
+from aurora_ros2cli.graph import spin_until
+from aurora_ros2cli.output import emit
 from aurora_ros2cli.qos import add_qos_arguments
 
 PRESET = 'sensor_data'
@@ -40,6 +42,20 @@ def only_type(node: Node, topic: str) -> str | None:
             f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]"
         )
     return str(types[0]) if types else None
+
+
+def awaited_type(node: Node, topic: str) -> str:
+    """Return the type of a topic; where it has none yet say so and wait for it.
+
+    Raises:
+        CliError: If it has several.
+    """
+    found = only_type(node, topic)
+    if found is None:
+        emit(f'WARNING: topic [{topic}] does not appear to be published yet')
+        spin_until(node, lambda: only_type(node, topic) is not None)
+        found = only_type(node, topic)
+    return str(found)
 
 
 def message_filter(expression: str | None) -> Callable[[Any], bool] | None:

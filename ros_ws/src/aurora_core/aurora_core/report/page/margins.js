@@ -30,7 +30,7 @@ function paperOf(box, low, high, unit) {
   for (const t of rounds(0, data.end, width > 600 ? 8 : 4)) {
     svg.append(el('text', { x: x(t), y: height - 3, 'text-anchor': 'middle' }, String(t)));
   }
-  svg.append(el('text', { x: width - right + 4, y: height - 3 }, 's'));
+  svg.append(el('text', { x: width - right + 14, y: height - 3 }, 's'));
   if (unit) svg.append(el('text', { x: width - right + 4, y: top + 4 }, unit));
   svg.addEventListener('click', (event) => {
     const share = (event.clientX - svg.getBoundingClientRect().left) / svg.clientWidth;

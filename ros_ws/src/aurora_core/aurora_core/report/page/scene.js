@@ -154,8 +154,9 @@ function drawMessage(to, message, time) {
   to.stroke();
   to.setLineDash([]);
   const share = Math.min(over / (0.6 * lasts), 1);
-  const at = (p, c, q) => (1 - share) ** 2 * p + 2 * share * (1 - share) * c + share ** 2 * q;
-  const [x, y] = [at(ax, cx, bx), at(ay, cy, by)];
+  const at = (p, c, q, u) => (1 - u) ** 2 * p + 2 * u * (1 - u) * c + u ** 2 * q;
+  const [x, y] = [at(ax, cx, bx, share), at(ay, cy, by, share)];
+  drawLostAttempts(to, message, time, [at(ax, cx, bx, 0.5), at(ay, cy, by, 0.5)]);
   to.fillStyle = colour;
   to.fillRect(x - 8, y - 5.5, 16, 11);
   to.strokeStyle = '#ffffff';
@@ -168,16 +169,28 @@ function drawMessage(to, message, time) {
   to.stroke();
 }
 
+/** Draws how often a message has been lost so far: a cross amid its way, and the number. */
+function drawLostAttempts(to, message, time, [x, y]) {
+  const lost = message.lost.filter((t) => t <= time + 1e-9).length;
+  if (!lost) return;
+  written(to, `${lost} lost`, x, y - 16, colours.bad, 'bold 11px system-ui, sans-serif');
+  cross(to, x, y, 5, 2.2);
+}
+
+function cross(to, x, y, arm, width) {
+  to.strokeStyle = colours.bad;
+  to.lineWidth = width;
+  to.beginPath();
+  to.moveTo(x - arm, y - arm);
+  to.lineTo(x + arm, y + arm);
+  to.moveTo(x + arm, y - arm);
+  to.lineTo(x - arm, y + arm);
+  to.stroke();
+}
+
 function drawMoment(to, moment, time) {
   if (moment.t === null || !moment.at || !['failure', 'fault'].includes(moment.tone)) return;
   if (time < moment.t) return;
   const [x, y] = [toX(moment.at[0]), toY(moment.at[1])];
-  to.strokeStyle = colours.bad;
-  to.lineWidth = 3;
-  to.beginPath();
-  to.moveTo(x - 6, y - 6);
-  to.lineTo(x + 6, y + 6);
-  to.moveTo(x + 6, y - 6);
-  to.lineTo(x - 6, y + 6);
-  to.stroke();
+  cross(to, x, y, 6, 3);
 }

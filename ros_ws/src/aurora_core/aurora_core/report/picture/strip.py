@@ -148,7 +148,7 @@ def draw_altitude(
                 zorder=2.0,
             )
     if uavs:
-        _phases(ax, uavs[0], dt_s)
+        shade_phases(ax, uavs[0].phase, dt_s)
     ax.set_ylim(bottom=-1.5)
     ax.margins(y=0.18)
     ax.set_ylabel('altitude\n[m]', fontsize=7.5)
@@ -156,11 +156,19 @@ def draw_altitude(
         ax.legend(loc='upper right', fontsize=6.5, frameon=False, ncols=len(uavs))
 
 
-def _phases(ax: Axes, track: Track, dt_s: float) -> None:
-    """Shade and name the phases of a flight."""
-    phases = track.phase
+def shade_phases(
+    ax: Axes, phases: FloatArray, dt_s: float, span_s: tuple[float, float] | None = None
+) -> None:
+    """Shade and name the phases of a flight.
+
+    Args:
+        ax: Axes of simulated time.
+        phases: (T,) `UavPhase` by tick.
+        dt_s: Time step.
+        span_s: What the axes show, None for all of the run.
+    """
     changes = [0, *(np.flatnonzero(np.diff(phases) != 0.0) + 1).tolist(), len(phases)]
-    total_s = max(len(phases) * dt_s, dt_s)
+    low_s, high_s = span_s if span_s is not None else (0.0, max(len(phases) * dt_s, dt_s))
     for start, end in pairwise(changes):
         phase = phases[start]
         if start == 0 and end - start <= 1:
@@ -175,10 +183,13 @@ def _phases(ax: Axes, track: Track, dt_s: float) -> None:
             name, colour = 'mission', '#e6f0ea'
         else:
             continue
-        ax.axvspan(start * dt_s, end * dt_s, color=colour, linewidth=0.0, zorder=0.5)
-        if (end - start) * dt_s > 0.06 * total_s:
+        begin_s, until_s = max(start * dt_s, low_s), min(end * dt_s, high_s)
+        if until_s <= begin_s:
+            continue
+        ax.axvspan(begin_s, until_s, color=colour, linewidth=0.0, zorder=0.5)
+        if until_s - begin_s > 0.06 * (high_s - low_s):
             ax.text(
-                (start + end) / 2 * dt_s,
+                (begin_s + until_s) / 2,
                 0.05,
                 name,
                 transform=ax.get_xaxis_transform(),

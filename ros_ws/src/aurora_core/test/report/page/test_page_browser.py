@@ -29,6 +29,15 @@ _QUIET = ('no-sandbox', 'disable-gpu', 'disable-quic', 'no-first-run')
 _OFFLINE = ('disable-background-networking', 'disable-component-update', 'disable-sync')
 _EVIL = '</script><img src=x onerror="window.hit=1"><svg onload="window.hit=1">'
 
+# How many pixels of the map have a colour.
+COUNT = """([r, g, b]) => { const map = document.getElementById('map');
+  const all = map.getContext('2d').getImageData(0, 0, map.width, map.height).data;
+  let found = 0;
+  for (let k = 0; k < all.length; k += 4) {
+    if (all[k] === r && all[k + 1] === g && all[k + 2] === b) found += 1;
+  }
+  return found; }"""
+
 Open = Callable[..., Page]
 
 
@@ -46,7 +55,7 @@ def browser() -> Iterator[Browser]:
         started.close()
 
 
-def _trace(make: SimpleNamespace) -> Any:
+def _trace(make: SimpleNamespace, *, lost: bool = False) -> Any:
     def entry(k: int, tick: int, kind: LinkEventKind) -> LinkRecord:
         return LinkRecord(
             tick=tick, sequence=k, message=1, link='link1', event='e1', sender='uav1',
@@ -54,7 +63,8 @@ def _trace(make: SimpleNamespace) -> Any:
             distance_m=30.0, line_of_sight=True,
         )  # fmt: skip
 
-    kinds = (LinkEventKind.SENT, LinkEventKind.ATTEMPT_PASSED, LinkEventKind.DELIVERED)
+    tried = LinkEventKind.ATTEMPT_LOST if lost else LinkEventKind.ATTEMPT_PASSED
+    kinds = (LinkEventKind.SENT, tried, LinkEventKind.DELIVERED)
     links = tuple(entry(k, 160 + k, kind) for k, kind in enumerate(kinds))
     sights = tuple(
         SightRecord(
@@ -65,7 +75,9 @@ def _trace(make: SimpleNamespace) -> Any:
     return replace(make.trace(), links=links, sights=sights)
 
 
-def _page(make: SimpleNamespace, verdict: Verdict, prompt: str | None = None) -> str:
+def _page(
+    make: SimpleNamespace, verdict: Verdict, prompt: str | None = None, *, lost: bool = False
+) -> str:
     limit = condition(
         id='m1.visible',
         sentence='uav1 flies at most 30 m high',
@@ -74,7 +86,7 @@ def _page(make: SimpleNamespace, verdict: Verdict, prompt: str | None = None) ->
         arguments=Altitude(horizon_s=19.0, window=Window.RUN, touchdown_m=0.3),
         source=Source(ids=('m1',)),
     )
-    content = BagContent(trace=_trace(make), world=make.world(limit), agsg_message=None)
+    content = BagContent(trace=_trace(make, lost=lost), world=make.world(limit), agsg_message=None)
     changes: dict[str, Any] = {'verdict': verdict}
     if prompt is not None:
         changes['prompt'] = prompt
@@ -88,10 +100,13 @@ def opened(browser: Browser, make: SimpleNamespace, tmp_path: Path) -> Iterator[
     pages: list[Page] = []
     wrong: list[str] = []
 
-    def ask(text: str = '', verdict: Verdict | None = None, **look: Any) -> Page:
+    def ask(
+        text: str = '', verdict: Verdict | None = None, *, lost: bool = False, **look: Any
+    ) -> Page:
         path = tmp_path / 'report.html'
         failed = make.verdict(make.result(margin=-0.2, satisfied=False))
-        path.write_text(_page(make, verdict or failed, text or None), encoding='utf-8')
+        page_text = _page(make, verdict or failed, text or None, lost=lost)
+        path.write_text(page_text, encoding='utf-8')
         page = browser.new_context(**look).new_page()
         page.set_default_timeout(10_000)
         page.on('pageerror', lambda error: wrong.append(str(error)))
@@ -214,22 +229,38 @@ def test_sight_and_messages_are_drawn_while_they_happen(opened: Open) -> None:
     assert 'delivered' in page.locator('#messages tbody').inner_text()
 
     def purple() -> int:
-        return int(
-            page.evaluate(
-                """() => { const map = document.getElementById('map');
-                const all = map.getContext('2d').getImageData(0, 0, map.width, map.height).data;
-                let found = 0;
-                for (let k = 0; k < all.length; k += 4) {
-                  if (all[k] === 154 && all[k + 1] === 92 && all[k + 2] === 192) found += 1;
-                }
-                return found; }"""
-            )
-        )
+        return int(page.evaluate(COUNT, [154, 92, 192]))
 
     page.locator('#scrub').fill('8.5')
     assert purple() > 20
     page.locator('#scrub').fill('14')
     assert purple() == 0
+
+
+def test_what_failed_stands_first_with_its_chart(opened: Open) -> None:
+    page = opened(viewport={'width': 1600, 'height': 900})
+    failed = page.locator('#failed')
+    assert 'What failed (1 of 1)' in failed.inner_text()
+    assert failed.locator('.chart svg').count() == 1
+    box = failed.bounding_box()
+    # Beside the map, in the first screen.
+    assert box is not None
+    assert box['y'] < 450
+    assert page.locator('#asked table').count() == 0
+    page.locator('nav a', has_text='what failed').click()
+    assert page.evaluate('location.hash') == '#failed'
+
+
+def test_a_lost_attempt_is_told_on_the_map(opened: Open) -> None:
+    page = opened(lost=True)
+
+    def red() -> int:
+        return int(page.evaluate(COUNT, [181, 27, 27]))
+
+    page.locator('#scrub').fill('7.9')
+    before = red()
+    page.locator('#scrub').fill('8.5')
+    assert red() > before + 20
 
 
 def test_markup_in_a_prompt_stays_text(opened: Open) -> None:

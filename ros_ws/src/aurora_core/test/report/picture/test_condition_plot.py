@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
@@ -12,10 +14,11 @@ from matplotlib.figure import Figure
 from aurora_core.judging.evaluation import FloatArray
 from aurora_core.monitor.signals_for_plot import PlotSignal
 from aurora_core.outcomes.verdict import ConditionResult
-from aurora_core.report.picture.condition_plot import draw_condition
+from aurora_core.report.picture.condition_plot import Flight, draw_condition, flight_of
 from aurora_core.report.picture.draw import png_bytes, svg_bytes
 from aurora_core.spec.parameter import Provenance
 
+PHASES = ('ascent', 'mission', 'landing')
 TIMES_S: FloatArray = np.linspace(0.0, 1.95, 40)
 
 
@@ -73,6 +76,28 @@ def test_signal_threshold_robustness_and_the_outcome_are_there() -> None:
     assert set(np.asarray(worst.get_xdata()).tolist()) == {1.95}
     drawn = [np.asarray(line.get_ydata()).tolist() for line in lower.get_lines()]
     assert (1.0 - TIMES_S).tolist() == pytest.approx(drawn[1])
+
+
+def test_a_reader_sees_quantity_unit_threshold_and_phases() -> None:
+    phases: FloatArray = np.repeat([1.0, 2.0, 100.0], [10, 20, 30])
+    flight = Flight(name='uav1', phases=phases, dt_s=0.05)
+    figure = draw_condition(_signal(), _result(), flight)
+    upper, lower = figure.axes
+    assert upper.get_ylabel() == 'hover drift\n[m]'
+    assert lower.get_ylabel() == 'margin\n[m]'
+    assert '≥ 4.00 m' in [text.get_text() for text in upper.texts]
+    named = [text.get_text() for text in upper.texts if text.get_text() in PHASES]
+    assert named == ['ascent', 'mission', 'landing']
+    assert 'phases of uav1' in upper.get_title(loc='left')
+    # The last phase goes on after the last sample: the axes do not.
+    assert upper.get_xlim()[1] < 2.1
+
+
+def test_the_flight_is_that_of_who_the_condition_is_about(make: SimpleNamespace) -> None:
+    flight = flight_of(make.trace(), ('motorcycle1', 'uav1'))
+    assert flight is not None
+    assert flight.name == 'uav1'
+    assert flight_of(make.trace(), ('motorcycle1',)) is None
 
 
 def test_samples_that_do_not_count_for_a_share_are_marked() -> None:
