@@ -117,7 +117,8 @@ class Attempt(Document):
         margins: Normalised margin of every condition; None without one.
         predicted: Normalised margins that were expected of it; {} where nothing was.
         failed: Conditions that do not hold, or were not exercised.
-        learned: Of the first one: what past episodes taught (`repair.experience`).
+        learned: Of the first one: what past episodes taught of moves (`repair.experience`).
+        errors: Of the first one: what they taught of the replay, by quantity (normalised).
     """
 
     iteration: int
@@ -130,6 +131,7 @@ class Attempt(Document):
     predicted: Mapping[str, FiniteFloat] = {}
     failed: tuple[str, ...] = ()
     learned: Mapping[str, FiniteFloat] = {}
+    errors: Mapping[str, FiniteFloat] = {}
 
     @property
     def simulated(self) -> bool:
