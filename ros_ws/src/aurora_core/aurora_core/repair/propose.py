@@ -67,7 +67,7 @@ def propose(
             implicated=locked,
             reason=f'{locked[0].reason}; {told} is locked, so no other realisation mends that',
         )
-    implicated = localize(agsg, verdict, past[0].learned if past else {})
+    implicated = localize(agsg, verdict, past[0].learned if past else {}, view)
     if not implicated:
         return Proposal(
             outcome=ProposalOutcome.OUT_OF_SCOPE,
