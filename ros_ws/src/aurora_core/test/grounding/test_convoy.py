@@ -11,7 +11,7 @@ import pytest
 
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.distances import DETACHED_M
-from aurora_core.grounding.ties import BeforePlace
+from aurora_core.grounding.ties import BeforePlace, Tie, agreed
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
@@ -460,3 +460,13 @@ def test_at_the_kerb_one_is_beside_who_is_in_the_lane(
     }
     places = _places(split)
     assert places['van'][1] - places['ego'][1] == lanes
+
+
+def test_who_follows_is_behind_whatever_else_brings_both_near_each_other() -> None:
+    # The truck is told to be near the van, which hears it; the van follows the truck.
+    near = Tie('truck1', 'van1', -20.0, 0, guess=True)
+    follows = Tie('van1', 'truck1', -20.0, 0, free=True, guess=True)
+    assert agreed([near, follows]) == [follows]
+    assert agreed([follows, near]) == [follows]
+    said = Tie('van1', 'truck1', 30.0, 0)
+    assert agreed([near, follows, said]) == [said]
