@@ -105,6 +105,7 @@ class AttemptOutcome(StrEnum):
     NO_PLACE = 'no_place'  # grounding found none; nothing was simulated
     REFUSED = 'refused'  # the request would have been judged otherwise; nothing was simulated
     SAME_SCENE = 'same_scene'  # it gives a scene that was tried already; nothing was simulated
+    DISPLACED = 'displaced'  # somebody would stand as wrong as before; nothing was simulated
 
 
 class Attempt(Document):

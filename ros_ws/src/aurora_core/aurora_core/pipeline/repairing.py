@@ -21,6 +21,7 @@ from aurora_core.outcomes.repair import (
 )
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.repair.attempts import judged_attempt
+from aurora_core.repair.displaced import still_displaced
 from aurora_core.repair.localize import localize
 from aurora_core.repair.lock import changes_of_the_request
 from aurora_core.repair.neighbourhood import outside
@@ -112,6 +113,11 @@ def why_not(
         return (
             _not_simulated(iteration, proposal, AttemptOutcome.SAME_SCENE, graph.grounding),
             'it gives a scene that was tried already',
+        )
+    for told in still_displaced(best.graph, best.verdict, graph):
+        return (
+            _not_simulated(iteration, proposal, AttemptOutcome.DISPLACED, graph.grounding),
+            told,
         )
     return None
 
