@@ -20,7 +20,7 @@ from aurora_core.outcomes.repair import (
     RepairPlan,
 )
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.repair.attempts import judged_attempt
+from aurora_core.repair.attempts import anchor_of, judged_attempt
 from aurora_core.repair.displaced import still_displaced
 from aurora_core.repair.localize import localize
 from aurora_core.repair.lock import changes_of_the_request
@@ -158,11 +158,6 @@ def nothing_left(iteration: int, proposal: Proposal) -> RepairReport:
         outcome=proposal.outcome.value,
         implicated=proposal.implicated[:_SHOWN],
     )
-
-
-def anchor_of(grounded: GroundedScenario) -> Anchor:
-    """Return where a scene was put."""
-    return Anchor(lane=grounded.anchor_lane, position_m=grounded.anchor_position_m)
 
 
 def scene_digest(grounded: GroundedScenario) -> str:

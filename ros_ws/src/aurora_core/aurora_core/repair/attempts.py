@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from aurora_core.outcomes.repair import Attempt, AttemptOutcome
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.repair import Anchor, Attempt, AttemptOutcome
 from aurora_core.outcomes.verdict import Verdict, VerdictStatus
 from aurora_core.repair.localize import violated
 
@@ -13,6 +14,11 @@ _OUTCOMES = {
     VerdictStatus.VIOLATED: AttemptOutcome.VIOLATED,
     VerdictStatus.INCONCLUSIVE: AttemptOutcome.INCONCLUSIVE,
 }
+
+
+def anchor_of(grounded: GroundedScenario) -> Anchor:
+    """Return where a scene was put."""
+    return Anchor(lane=grounded.anchor_lane, position_m=grounded.anchor_position_m)
 
 
 def judged_attempt(iteration: int, verdict: Verdict) -> Attempt:
