@@ -36,7 +36,7 @@ def test_a_cancel_in_the_middle_of_a_repair_leaves_the_best_run_and_the_service_
     def in_the_third_realisation() -> bool:
         stages = [now.stage for now in heard]
         judged = sum(a != 'verify' and b == 'verify' for a, b in pairwise(stages))
-        return judged == 2 and stages[-1] == 'execute' and heard[-1].sim_time_s > 2.0
+        return judged == 2 and stages[-1] == 'execute' and bool(heard[-1].sim_time_s > 2.0)
 
     result = graph.play.send_goal(
         on.RUN,

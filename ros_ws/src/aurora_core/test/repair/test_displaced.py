@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.repair import Anchor, AttemptOutcome, Proposal, RepairPlan, Step
+from aurora_core.outcomes.repair import (
+    Anchor,
+    AttemptOutcome,
+    Proposal,
+    ProposalOutcome,
+    RepairPlan,
+    Step,
+)
 from aurora_core.outcomes.verdict import ConditionResult, Verdict, VerdictStatus
 from aurora_core.pipeline.functions import ground_stage, parse_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
@@ -51,7 +58,9 @@ def test_a_place_where_somebody_stands_as_wrong_as_before_is_not_simulated() -> 
     plan = RepairPlan(avoided=(Anchor(lane=here.anchor_lane, position_m=here.anchor_position_m),))
     again = graph.model_copy(update={'iteration': 1})
     other = ground_stage(_KNOWN, again, 1, plan)
-    proposal = Proposal(outcome='edited', step=Step.GROUNDING, plan=plan, reason='elsewhere')
+    proposal = Proposal(
+        outcome=ProposalOutcome.EDITED, step=Step.GROUNDING, plan=plan, reason='elsewhere'
+    )
     best = Realisation(
         attempt=realised(0, first, verdict),
         grounding=first,

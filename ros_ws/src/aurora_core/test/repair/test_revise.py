@@ -64,6 +64,16 @@ def test_who_sees_nothing_from_high_up_is_put_lower_first() -> None:
     assert down.realised < 30.0 < up.realised
 
 
+def test_what_most_often_gives_sight_is_moved_far_as_well() -> None:
+    usual = parsed('In fog, a drone tracks a bus.')
+    far = ValueEdit(path=STANDOFF, requested=0.0, realised=120.0, provenance=Provenance.DEFAULT)
+    agsg = build_agsg(with_values(usual.spec, (far,)))
+    tried = [p.plan.values for p in to_fit(agsg, 'sight')[: SETTINGS.placements]]
+    alone = [v[0].realised for v in tried if [e.path for e in v] == [STANDOFF]]
+    # Beyond 75 m nobody sees anything in fog.
+    assert min(alone) < 60.0
+
+
 def test_nothing_stated_is_revised_and_what_no_value_mends_is_left() -> None:
     stated = parsed('A drone orbits the City Hall at 12 meters with a radius of 30 meters.')
     assert to_fit(stated, 'clearance') == []
