@@ -49,7 +49,9 @@ class Episode(Document):
         steps: Of the escalation, as they were simulated.
         missed: By condition, by how much each estimate of the replay was too good (normalised).
         seconds: Wall time of the repair, the first realisation not counted.
-        times: The same, in executions of the first realisation.
+        times: The same, in first realisations (from the request to its verdict).
+        proposing_s: Wall time of each proposal, localization and replay in it.
+        first_s: Wall time of the first realisation.
         why: What repair said last, where the run stays violated.
     """
 
@@ -69,6 +71,8 @@ class Episode(Document):
     missed: Mapping[str, tuple[float, ...]] = {}
     seconds: float = 0.0
     times: float = 0.0
+    proposing_s: tuple[float, ...] = ()
+    first_s: float = 0.0
     why: str = ''
 
     @property
@@ -221,6 +225,8 @@ def _told(
         missed=_missed(simulated),
         seconds=spent,
         times=spent / (when.first - when.begin) if when.first else 0.0,
+        proposing_s=tuple(round(asked.seconds, 4) for asked in stages.asked),
+        first_s=round(when.first - when.begin, 4) if when.first else 0.0,
         why='' if holds or not report.repairs else report.repairs[-1].reason,
     )
 

@@ -85,6 +85,17 @@ KINDS: tuple[Kind, ...] = (
         good=_CLOSE,
     ),
     Kind(
+        name='start gap too small to keep',
+        prompt=(
+            'A {who} drives behind a {whom}. The distance between the {who} and the {whom} is '
+            'always more than {least} meters.'
+        ),
+        words={**_PAIR, 'least': (15, 25)},
+        values={GAP: Span(low=1.02, high=1.1, of='least')},
+        cause=GAP,
+        good=Span(low=5.0, high=6.0, of='least'),
+    ),
+    Kind(
         name='flight too slow for its time',
         prompt='A drone flies a rectangle and lands within {seconds} seconds.',
         words={'seconds': (120, 150)},
@@ -99,17 +110,6 @@ KINDS: tuple[Kind, ...] = (
             'the {vehicle} comes within {reach} meters of the drone, the {vehicle} brakes.'
         ),
         words={**_ONE, 'reach': (35, 55)},
-        values={ALTITUDE: _OUT_OF_REACH},
-        cause=ALTITUDE,
-        good=_HALF,
-    ),
-    Kind(
-        name='reporter out of reach of its trigger',
-        prompt=(
-            'A drone hovers over an intersection and alerts the ego car when a {vehicle} comes '
-            'within {reach} meters of the drone.'
-        ),
-        words={**_ONE, 'reach': (40, 60)},
         values={ALTITUDE: _OUT_OF_REACH},
         cause=ALTITUDE,
         good=_HALF,
@@ -140,9 +140,12 @@ KINDS: tuple[Kind, ...] = (
     ),
     Kind(
         name='altitude that loses sight',
-        prompt='A drone hovers over an intersection and sees a {vehicle} for {seconds} seconds.',
+        prompt=(
+            'In fog, a drone hovers over an intersection and sees a {vehicle} for {seconds} '
+            'seconds.'
+        ),
         words={**_ONE, 'seconds': (3, 6)},
-        values={ALTITUDE: Span(low=112.0, high=119.0)},
+        values={ALTITUDE: Span(low=82.0, high=119.0)},
         cause=ALTITUDE,
         good=Span(low=20.0, high=40.0),
     ),
@@ -169,9 +172,9 @@ KINDS: tuple[Kind, ...] = (
         good=Span(low=40.0, high=50.0),
     ),
     Kind(
-        name='anchor without a crossing',
-        prompt='A pedestrian crosses the street in front of a {vehicle}.',
-        words=_ONE,
+        name='street that hides what is tracked',
+        prompt='A drone tracks a {vehicle} at {alt} meters altitude, {away} meters behind it.',
+        words={**_ONE, 'alt': (12, 20), 'away': (60, 90)},
         cause=PLACE,
     ),
     Kind(

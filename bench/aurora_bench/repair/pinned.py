@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import random
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,8 +14,8 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.repair import Anchor, Attempt, Proposal, RepairPlan
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.pipeline.repairing import anchor_of
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
+from aurora_core.repair.attempts import anchor_of
 from aurora_core.spec.scenario import ScenarioSpec
 
 # So many streets are looked at until one has room for the scene.
@@ -23,11 +24,16 @@ _STREETS = 60
 
 @dataclass(slots=True)
 class Asked:
-    """A proposal, what it answers to, and what grounding made of it (None: nothing yet)."""
+    """A proposal, what it answers to, and what grounding made of it (None: nothing yet).
+
+    Attributes:
+        seconds: Wall time of the proposal.
+    """
 
     graph: Agsg
     verdict: Verdict
     proposal: Proposal
+    seconds: float
     outcome: GroundingOutcome | None = None
 
 
@@ -99,6 +105,7 @@ class PinnedStages(WatchedStages):
         self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
     ) -> Proposal:
         """Propose, and remember what was."""
+        begin = time.perf_counter()
         proposal = super().propose(agsg, verdict, bag, past)
-        self.asked.append(Asked(agsg, verdict, proposal))
+        self.asked.append(Asked(agsg, verdict, proposal, time.perf_counter() - begin))
         return proposal

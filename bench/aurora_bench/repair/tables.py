@@ -94,6 +94,8 @@ def goals(episodes: Sequence[Episode]) -> tuple[Goal, ...]:
     kept = sum(e.preserved for e in every)
     refused = sum(not e.repaired for e in locked)
     times = median(e.times for e in shown) if shown else 0.0
+    thinking = [s / e.first_s for e in every if e.first_s for s in e.proposing_s]
+    share_of_run = median(thinking) if thinking else 0.0
     seconds = median(e.seconds for e in shown) if shown else 0.0
     return (
         _goal('repaired', '>= 0.85', f'{share.value:.3f}', share.value >= 0.85),
@@ -108,6 +110,12 @@ def goals(episodes: Sequence[Episode]) -> tuple[Goal, ...]:
         ),
         _goal('median episode in first realisations', '<= 3', f'{times:.2f}', times <= 3.0),
         _goal('median episode in seconds', '<= 8', f'{seconds:.1f}', seconds <= 8.0),
+        _goal(
+            'median proposal in first realisations',
+            '<= 1',
+            f'{share_of_run:.2f}',
+            share_of_run <= 1.0,
+        ),
     )
 
 

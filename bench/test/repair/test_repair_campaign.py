@@ -94,6 +94,14 @@ def test_an_edit_outside_its_neighbourhood_is_told_also_of_a_locked_fault() -> N
     assert not {goal.name: goal.met for goal in goals(episodes)}['nothing else changed']
 
 
+def test_a_proposal_is_timed_against_the_run_that_it_answers_to() -> None:
+    shown = {'showed': True, 'repaired': True}
+    slow = _episode('a', **shown, proposing_s=(1.0, 3.0), first_s=2.0)
+    quick = _episode('b', **shown, proposing_s=(0.2,), first_s=2.0)
+    figures = {goal.name: (goal.figure, goal.met) for goal in goals([slow, quick])}
+    assert figures['median proposal in first realisations'] == ('0.50', True)
+
+
 def test_a_journal_of_other_settings_is_not_gone_on_with(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

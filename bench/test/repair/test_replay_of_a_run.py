@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -24,6 +25,7 @@ from aurora_core.repair.localize import localize
 from aurora_core.repair.settings import load_repair_settings
 from aurora_core.repair.surrogate.moved import Candidates
 from aurora_core.repair.surrogate.replay import Replay
+from aurora_core.trace.bag_content import BagContent
 
 FAULT = Fault(
     key='hover',
@@ -41,7 +43,11 @@ SETTINGS = load_repair_settings()
 class Recorded(NamedTuple):
     graph: Agsg
     verdict: Verdict
-    view: RunView
+    content: BagContent
+
+    @property
+    def view(self) -> RunView:
+        return RunView(self.content.trace, self.content.world)
 
 
 def _ran(folder: Path, *, good: bool = False) -> Recorded:
@@ -57,7 +63,7 @@ def _ran(folder: Path, *, good: bool = False) -> Recorded:
     verdict = stages.verify(graph, bag)
     content = stages.verified
     assert content is not None
-    return Recorded(graph, verdict, RunView(content.trace, content.world))
+    return Recorded(graph, verdict, content)
 
 
 @pytest.fixture(scope='module')
@@ -120,6 +126,43 @@ def test_nothing_is_said_of_what_has_no_model(violated: Recorded) -> None:
     candidates = Candidates(values={radius: np.array([20.0])}, here={radius: 30.0})
     assert _replay(violated).foresee(candidates).margins == {}
     assert not _foresight(violated).fails({radius: 20.0})
+
+
+def test_the_error_that_a_history_measured_is_the_one_that_is_believed(
+    violated: Recorded,
+) -> None:
+    begun = Attempt.model_validate(
+        {'iteration': 0, 'outcome': 'violated', 'errors': {'distance': 0.07}}
+    )
+    errors = _replay(violated, (begun,)).foresee(_candidates(30.0)).errors
+    assert errors['c1.holds'] == 0.07
+    assert errors['safety.collision'] == SETTINGS.surrogate.unknown
+
+
+def test_the_record_tells_whether_a_target_was_too_far_or_hidden(violated: Recorded) -> None:
+    # As if sensors reached no farther than 60 m: it was watched from 80 m above.
+    world = violated.content.world
+    near = world.limits.model_copy(
+        update={'sensing_range_m': dict.fromkeys(world.limits.sensing_range_m, 60.0)}
+    )
+    world = replace(world, limits=near)
+    view = RunView(violated.content.trace, world)
+    [seen] = [c for c in violated.graph.conditions if c.id == 'm1.visible']
+    lost = violated.verdict.model_copy(
+        update={
+            'results': tuple(
+                row.model_copy(update={'normalised': -0.5, 'margin': -0.5, 'satisfied': False})
+                for row in violated.verdict.results
+                if row.id == seen.id
+            )
+        }
+    )
+    usual, shown = localize(violated.graph, lost), localize(violated.graph, lost, view=view)
+    assert {item.field for item in shown} == {item.field for item in usual}
+    moves = [(item.field, item.direction) for item in shown if item.field == ALTITUDE]
+    assert moves[0] == (ALTITUDE, -1)
+    assert 'is out of range for' in shown[0].reason
+    assert next(item.direction for item in usual if item.field == ALTITUDE) == 1
 
 
 def test_an_estimate_that_was_too_good_is_trusted_less(violated: Recorded) -> None:

@@ -226,8 +226,12 @@ def split_scene(
         # is, and who stands, all along or until an event, is behind those who do not.
         awaited = any(bound_to_places(spec, by_id[i]) for i in group)
         idle = awaited and not any(moves(spec, by_id[i]) for i in offsets)
+        # Who is told by a UAV waits until that has landed: longer than who sets off by an event.
+        waits = all(_only_told(spec, by_id[i]) for i in group) and any(
+            sets_off(spec.events, i) is not None for i in offsets
+        )
         if not _stand(spec, group, by_id) and (idle or _stand(spec, offsets, by_id)):
-            shift_m = -_behind_m(offsets, group)
+            shift_m = shift_m if waits else -_behind_m(offsets, group)
         offsets |= {i: (place[0] + shift_m, place[1]) for i, place in group.items()}
     places = offsets | {
         m.agent.id: (m.offset_m, m.lane_shift) for members in groups for m in members
@@ -278,6 +282,17 @@ def _behind_m(
 
 def _stand(spec: ScenarioSpec, ids: Iterable[str], by_id: Mapping[str, GroundAgent]) -> bool:
     return all(stands(by_id[i]) or sets_off(spec.events, i) is not None for i in ids)
+
+
+def _only_told(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether of a vehicle nothing is said but that a UAV tells it something."""
+    uavs = {uav.id for uav in spec.uavs}
+    told = {
+        e.action.receiver
+        for e in spec.events
+        if isinstance(e.action, SendMessage) and e.action.sender in uavs
+    }
+    return agent.id in told and not agent.behaviors and sets_off(spec.events, agent.id) is None
 
 
 def oncoming_to(agent: GroundAgent) -> Placement | None:

@@ -56,15 +56,19 @@ class BeforePlace:
 
 
 def agreed(ties: list[Tie]) -> list[Tie]:
-    """Return ties without guesses about two of whom something else is said."""
+    """Return ties without guesses about two of whom something else is said.
+
+    Who comes from behind says on which side of the other one it is, if not how far away: that is
+    more than that two are near each other.
+    """
     said = {frozenset((t.agent, t.other)) for t in ties if not t.guess}
-    found: list[Tie] = []
-    for tie in ties:
+    taken: set[int] = set()
+    for number, tie in sorted(enumerate(ties), key=lambda row: row[1].guess and not row[1].free):
         pair = frozenset((tie.agent, tie.other))
         if not tie.guess or pair not in said:
-            found.append(tie)
+            taken.add(number)
             said |= {pair}
-    return found
+    return [tie for number, tie in enumerate(ties) if number in taken]
 
 
 def without_implied(ties: list[Tie]) -> list[Tie]:

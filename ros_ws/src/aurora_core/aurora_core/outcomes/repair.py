@@ -105,6 +105,7 @@ class AttemptOutcome(StrEnum):
     NO_PLACE = 'no_place'  # grounding found none; nothing was simulated
     REFUSED = 'refused'  # the request would have been judged otherwise; nothing was simulated
     SAME_SCENE = 'same_scene'  # it gives a scene that was tried already; nothing was simulated
+    DISPLACED = 'displaced'  # somebody would stand as wrong as before; nothing was simulated
 
 
 class Attempt(Document):
@@ -117,7 +118,8 @@ class Attempt(Document):
         margins: Normalised margin of every condition; None without one.
         predicted: Normalised margins that were expected of it; {} where nothing was.
         failed: Conditions that do not hold, or were not exercised.
-        learned: Of the first one: what past episodes taught (`repair.experience`).
+        learned: Of the first one: what past episodes taught of moves (`repair.experience`).
+        errors: Of the first one: what they taught of the replay, by quantity (normalised).
     """
 
     iteration: int
@@ -130,6 +132,7 @@ class Attempt(Document):
     predicted: Mapping[str, FiniteFloat] = {}
     failed: tuple[str, ...] = ()
     learned: Mapping[str, FiniteFloat] = {}
+    errors: Mapping[str, FiniteFloat] = {}
 
     @property
     def simulated(self) -> bool:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.pipeline.stages import RunRequest
-from aurora_core.repair.experience import Lesson, RepairEpisode, learned, remember_repairs
+from aurora_core.repair.experience import RepairEpisode, Taught, learned, remember_repairs
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
 from aurora_core.retrieval.episodes import Episode, EpisodeStore
@@ -34,25 +34,29 @@ def remember(request: RunRequest, report: RunReport, spec: ScenarioSpec | None) 
     return not report.faults and history.add(episode_of(report, spec))
 
 
-def learned_of(request: RunRequest) -> dict[str, float]:
-    """Return what the history of a request teaches repair, {} without one.
+def learned_of(request: RunRequest) -> Taught:
+    """Return what the history of a request teaches repair, nothing without one.
 
     Raises:
         ConfigError: The history cannot be read.
     """
-    return {} if request.history is None else learned(request.history)
+    return Taught() if request.history is None else learned(request.history)
 
 
-def remember_lessons(request: RunRequest, report: RunReport, lessons: tuple[Lesson, ...]) -> bool:
+def remember_lessons(
+    request: RunRequest, report: RunReport, episode: RepairEpisode | None
+) -> bool:
     """Keep what repair learned in the history of a request; return whether it was kept.
 
     Raises:
         ConfigError: The history cannot be written.
     """
-    # A run with injected faults shows what was done to it, not what the request is like.
-    if request.history is None or request.history_frozen or report.faults or not lessons:
+    if request.history is None or request.history_frozen or episode is None:
         return False
-    remember_repairs(request.history, RepairEpisode(id=report.run_id, lessons=lessons))
+    # A run with injected faults shows what was done to it, not what the request is like.
+    if report.faults or not episode.lessons:
+        return False
+    remember_repairs(request.history, episode)
     return True
 
 

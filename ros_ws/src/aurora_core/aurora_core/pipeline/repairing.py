@@ -19,8 +19,10 @@ from aurora_core.outcomes.repair import (
     Proposal,
     RepairPlan,
 )
-from aurora_core.outcomes.verdict import Verdict, VerdictStatus
-from aurora_core.repair.localize import localize, violated
+from aurora_core.outcomes.verdict import Verdict
+from aurora_core.repair.attempts import anchor_of, judged_attempt
+from aurora_core.repair.displaced import still_displaced
+from aurora_core.repair.localize import localize
 from aurora_core.repair.lock import changes_of_the_request
 from aurora_core.repair.neighbourhood import outside
 from aurora_core.report.facts import ExecutionFacts
@@ -29,11 +31,6 @@ from aurora_core.spec.parameter import Provenance
 
 _ANCHOR = 'grounding/anchor'
 _SHOWN = 5
-_OUTCOMES = {
-    VerdictStatus.VERIFIED: AttemptOutcome.VERIFIED,
-    VerdictStatus.VIOLATED: AttemptOutcome.VIOLATED,
-    VerdictStatus.INCONCLUSIVE: AttemptOutcome.INCONCLUSIVE,
-}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,16 +61,14 @@ def realised(
 ) -> Attempt:
     """Return what is remembered of a realisation that was judged."""
     grounded = grounding.agsg.grounding if grounding.agsg is not None else None
-    return Attempt(
-        iteration=iteration,
-        step=None if proposal is None else proposal.step,
-        plan=RepairPlan() if proposal is None else proposal.plan,
-        outcome=_OUTCOMES[verdict.status],
-        anchor=None if grounded is None else anchor_of(grounded),
-        scene='' if grounded is None else scene_digest(grounded),
-        margins={row.id: row.normalised for row in verdict.results},
-        predicted={} if proposal is None else proposal.predicted,
-        failed=tuple(row.id for row in violated(verdict)),
+    return judged_attempt(iteration, verdict).model_copy(
+        update={
+            'step': None if proposal is None else proposal.step,
+            'plan': RepairPlan() if proposal is None else proposal.plan,
+            'anchor': None if grounded is None else anchor_of(grounded),
+            'scene': '' if grounded is None else scene_digest(grounded),
+            'predicted': {} if proposal is None else proposal.predicted,
+        }
     )
 
 
@@ -119,6 +114,11 @@ def why_not(
             _not_simulated(iteration, proposal, AttemptOutcome.SAME_SCENE, graph.grounding),
             'it gives a scene that was tried already',
         )
+    for told in still_displaced(best.graph, best.verdict, graph):
+        return (
+            _not_simulated(iteration, proposal, AttemptOutcome.DISPLACED, graph.grounding),
+            told,
+        )
     return None
 
 
@@ -158,11 +158,6 @@ def nothing_left(iteration: int, proposal: Proposal) -> RepairReport:
         outcome=proposal.outcome.value,
         implicated=proposal.implicated[:_SHOWN],
     )
-
-
-def anchor_of(grounded: GroundedScenario) -> Anchor:
-    """Return where a scene was put."""
-    return Anchor(lane=grounded.anchor_lane, position_m=grounded.anchor_position_m)
 
 
 def scene_digest(grounded: GroundedScenario) -> str:

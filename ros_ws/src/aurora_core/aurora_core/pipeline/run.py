@@ -37,7 +37,7 @@ from aurora_core.pipeline.repairing import (
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 from aurora_core.pipeline.verification import load_bag
 from aurora_core.ports.clock import SteadyClock
-from aurora_core.repair.experience import Lesson, lessons
+from aurora_core.repair.experience import RepairEpisode, estimates, lessons
 from aurora_core.repair.revise import revised_to_fit
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import ExecutionFacts, RunFacts
@@ -95,7 +95,7 @@ class _Run:
         self.control = control
         self.clock = clock
         self.facts = facts
-        self.lessons: tuple[Lesson, ...] = ()
+        self.taught: RepairEpisode | None = None
         self._dt_s = 0.0
         self._timing: dict[str, float] = {}
         # Of the time for repair: what is over, and what an iteration takes of it.
@@ -247,7 +247,9 @@ class _Run:
         """
         budget = self.budget()
         made = [first]
-        past = [first.attempt.model_copy(update={'learned': learned_of(self.request)})]
+        taught = learned_of(self.request)
+        known = {'learned': taught.moves, 'errors': taught.errors}
+        past = [first.attempt.model_copy(update=known)]
         tries = self.known.repair.groundings if budget else 0
         try:
             while tries and len(made) <= budget and made[-1].verdict.status in _GO_ON:
@@ -262,7 +264,12 @@ class _Run:
             best = max(made, key=lambda r: r.attempt.rank)
             self.note(grounding=best.grounding, execution=best.execution, verdict=best.verdict)
             self.note(iterations=len(made))
-            self.lessons = lessons(past, first.graph.conditions)
+            conditions = first.graph.conditions
+            self.taught = RepairEpisode(
+                id=self.folder.run_id,
+                lessons=lessons(past, conditions),
+                missed=estimates(past, conditions),
+            )
             self._share = None
 
     def relax(self) -> None:
@@ -413,6 +420,6 @@ def _keep(request: RunRequest, report: RunReport, state: _Run) -> None:
     parse = state.facts.parse
     try:
         remember(request, report, parse.spec if parse is not None else None)
-        remember_lessons(request, report, state.lessons)
+        remember_lessons(request, report, state.taught)
     except AuroraError as err:
         _LOG.warning('run %s is not in the history: %s', report.run_id, err)

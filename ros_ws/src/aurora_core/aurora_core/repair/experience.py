@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What past episodes of repair taught: which move helped which quantity, and how often.
+"""What past episodes of repair taught: which move helped which quantity, and how often; and how
+far off the replay was.
 
 It only orders what is tried. What a run begins with is part of its input and travels with its
 first attempt, so that the same run with the same history makes the same attempts.
@@ -8,11 +9,13 @@ first attempt, so that the same run with the same history makes the same attempt
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from pydantic import ValidationError
+from pydantic import FiniteFloat, ValidationError
 
 from aurora_core.document import Document
 from aurora_core.errors import ConfigError
@@ -20,10 +23,13 @@ from aurora_core.files import DOCUMENT_BYTES, read_bytes
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.repair import Attempt
 from aurora_core.repair.helps import ANCHOR
+from aurora_core.repair.surrogate.replay import kind_of, missed
 
 _FOLDER = 'repairs'
 # A move that never helped is still tried, only later.
 _LEAST = 0.2
+# Of so many estimates of a quantity this share is within the error that is believed of them.
+_ENOUGH, _WITHIN = 10, 0.9
 
 
 class Lesson(Document):
@@ -39,10 +45,30 @@ class Lesson(Document):
 
 
 class RepairEpisode(Document):
-    """The lessons of one run."""
+    """The lessons of one run.
+
+    Attributes:
+        id: Of the run.
+        lessons: Its moves.
+        missed: By quantity, by how much each estimate of the replay was too good (normalised).
+    """
 
     id: str
     lessons: tuple[Lesson, ...]
+    missed: Mapping[str, tuple[FiniteFloat, ...]] = {}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Taught:
+    """What a history teaches.
+
+    Attributes:
+        moves: How much more a move counts than usual, by its name.
+        errors: How far off the replay was, by quantity (normalised).
+    """
+
+    moves: Mapping[str, float] = field(default_factory=dict)
+    errors: Mapping[str, float] = field(default_factory=dict)
 
 
 def move(quantity: str, field: str, direction: int) -> str:
@@ -71,6 +97,26 @@ def lessons(past: Sequence[Attempt], conditions: Sequence[Condition]) -> tuple[L
                     for field, way in moves
                 ]
     return tuple(found)
+
+
+def estimates(
+    past: Sequence[Attempt], conditions: Sequence[Condition]
+) -> dict[str, tuple[float, ...]]:
+    """Return by how much each estimate of a run was too good, by quantity.
+
+    Args:
+        past: Everything that was tried, in order.
+        conditions: Of the request.
+    """
+    kinds = {condition.id: kind_of(condition) for condition in conditions}
+    found: dict[str, tuple[float, ...]] = {}
+    for attempt in past:
+        for name, expected in attempt.predicted.items():
+            came = attempt.margins.get(name)
+            if attempt.simulated and came is not None and name in kinds:
+                off = round(missed(expected, came), 6)
+                found[kinds[name]] = (*found.get(kinds[name], ()), off)
+    return found
 
 
 def _moves(before: Attempt, after: Attempt) -> Iterator[tuple[str, int]]:
@@ -109,16 +155,17 @@ def remember_repairs(history: Path, episode: RepairEpisode) -> None:
         ) from err
 
 
-def learned(history: Path) -> dict[str, float]:
-    """Return how much more a move counts than usual, by its name.
+def learned(history: Path) -> Taught:
+    """Return what a history teaches: of moves, and of the replay where it was asked often enough.
 
-    Source: rule of succession: the share of moves that helped, with one of each kind added, in
-    halves.
+    Source of the factors: rule of succession: the share of moves that helped, with one of each
+    kind added, in halves.
 
     Raises:
         ConfigError: A file of the history is no episode.
     """
     tried: dict[str, list[bool]] = {}
+    off: dict[str, list[float]] = {}
     for path in sorted((history / _FOLDER).glob('*.json')):
         try:
             episode = RepairEpisode.model_validate_json(read_bytes(path, DOCUMENT_BYTES))
@@ -126,7 +173,16 @@ def learned(history: Path) -> dict[str, float]:
             raise ConfigError(f'{path} is no episode: {err}', hint='remove the file') from err
         for lesson in episode.lessons:
             tried.setdefault(lesson.move, []).append(lesson.helped)
-    return {name: _factor(helped) for name, helped in sorted(tried.items())}
+        for quantity, values in episode.missed.items():
+            off.setdefault(quantity, []).extend(values)
+    return Taught(
+        moves={name: _factor(helped) for name, helped in sorted(tried.items())},
+        errors={
+            name: sorted(values)[math.ceil(_WITHIN * len(values)) - 1]
+            for name, values in sorted(off.items())
+            if len(values) >= _ENOUGH
+        },
+    )
 
 
 def _factor(helped: Sequence[bool]) -> float:

@@ -206,6 +206,13 @@ _APART = (
     _place(2.0, _ROAD),
 )
 _HEIGHT = 'a distance to a UAV counts its height'
+# What is not to happen before some moment is helped by what takes longer.
+_LATER = (
+    _place(2.0, 'there what is waited for may come later'),
+    Help(name='speed_mps', direction=-1, weight=1.0, because='who flies slower is there later'),
+    _farther(1.0, 'who starts farther away comes later'),
+    _higher(0.5, 'a longer climb takes its time'),
+)
 _DISTANCES: Mapping[tuple[Q, bool], tuple[Help, ...]] = MappingProxyType(
     {
         (Q.DISTANCE, True): (_lower(1.5, _HEIGHT), *_TOGETHER),
@@ -218,5 +225,7 @@ _DISTANCES: Mapping[tuple[Q, bool], tuple[Help, ...]] = MappingProxyType(
 
 def helps(quantity: Q, op: str) -> tuple[Help, ...]:
     """Return what helps a quantity to hold its comparison (`<`, `<=`, `>`, `>=`, `==`)."""
+    if quantity is Q.EVENT_TIME and op in ('>', '>='):
+        return _LATER
     of_distance = _DISTANCES.get((quantity, op in ('<', '<=')))
     return HELPS.get(quantity, ()) if of_distance is None else of_distance

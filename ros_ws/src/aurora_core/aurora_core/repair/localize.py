@@ -16,14 +16,17 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from aurora_core.agsg.influence import Influence, parameters_affecting
+from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.agsg import Agsg, AgsgParameter
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.repair import Implicated
 from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict
+from aurora_core.quantities.view import RunView
 from aurora_core.repair.experience import weight
 from aurora_core.repair.helps import ANCHOR, helps
 from aurora_core.repair.lock import is_movable
 from aurora_core.repair.reach import out_of_reach
+from aurora_core.repair.shown import why_not_seen
 
 # How bad it is that a margin is missing (normalised), and what a mere consequence counts.
 _NO_MARGIN = 1.0
@@ -62,7 +65,10 @@ def violated(verdict: Verdict) -> tuple[ConditionResult, ...]:
 
 
 def localize(
-    agsg: Agsg, verdict: Verdict, learned: Mapping[str, float] = MappingProxyType({})
+    agsg: Agsg,
+    verdict: Verdict,
+    learned: Mapping[str, float] = MappingProxyType({}),
+    view: RunView | None = None,
 ) -> tuple[Implicated, ...]:
     """Return what can be at fault, what most speaks for first; equal ones by name.
 
@@ -71,9 +77,11 @@ def localize(
     Args:
         agsg: Grounded, as it was executed.
         verdict: Of its trace.
-        learned: How much more a move counts than usual (`repair.experience`); it orders what is
-            in it, and takes nothing in or out.
+        learned: How much more a move counts than usual (`repair.experience`).
+        view: What was recorded (`repair.shown`). It and what was learned order what is in it, and
+            take nothing in or out.
     """
+    context = None if view is None else Context(view, agsg.realised_spec, agsg.conditions)
     rows = violated(verdict)
     conditions = {condition.id: condition for condition in agsg.conditions}
     movable = {row.path: row for row in agsg.parameters if is_movable(row)}
@@ -85,9 +93,14 @@ def localize(
             continue
         share = 1.0 if row.id in roots else _CONSEQUENCE
         influences = parameters_affecting(agsg, row.id)
+        seen = None if context is None else why_not_seen(context, condition)
         for name, direction, score, reason in _speaking(condition, row, influences, movable):
             case = cases.setdefault((name, direction), _Case())
             known = weight(learned, condition.quantity.value, name, direction)
+            if seen is not None:
+                last = name if name == ANCHOR else name.rpartition('/')[2]
+                known *= seen.factors.get((last, direction), 1.0)
+                reason = f'{reason} ({seen.told})'
             case.add(share * score * known, row.id, reason, None)
         for name, evidence in out_of_reach(agsg, condition).items():
             if name in movable:

@@ -22,6 +22,7 @@ from aurora_core.outcomes.repair import (
 )
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.quantities.view import RunView
+from aurora_core.repair.attempts import anchor_of, judged_attempt
 from aurora_core.repair.beyond import beyond_repair
 from aurora_core.repair.foresee import Foresight
 from aurora_core.repair.helps import ANCHOR
@@ -55,10 +56,14 @@ def propose(
     Args:
         agsg: The best realisation so far, grounded.
         verdict: Of its trace.
-        past: Everything that was tried, the first realisation included, in order.
+        past: Everything that was tried, the first realisation included, in order; empty: nothing
+            beside the realisation.
         settings: How it is searched.
         view: What was recorded of that realisation; None: nothing is foreseen.
     """
+    if not past and agsg.grounding is not None:
+        first = judged_attempt(agsg.iteration, verdict)
+        past = (first.model_copy(update={'anchor': anchor_of(agsg.grounding)}),)
     locked = beyond_repair(agsg, verdict)
     if locked:
         told = ', '.join(item.field for item in locked)
@@ -67,7 +72,7 @@ def propose(
             implicated=locked,
             reason=f'{locked[0].reason}; {told} is locked, so no other realisation mends that',
         )
-    implicated = localize(agsg, verdict, past[0].learned if past else {})
+    implicated = localize(agsg, verdict, past[0].learned if past else {}, view)
     if not implicated:
         return Proposal(
             outcome=ProposalOutcome.OUT_OF_SCOPE,

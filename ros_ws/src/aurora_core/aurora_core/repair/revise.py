@@ -36,6 +36,7 @@ Rule = tuple[tuple[str, int], ...]
 
 # Last name of a path, and in which direction it goes.
 _HIGHER: Rule = (('altitude_m', 1),)
+_LOWER: Rule = (('altitude_m', -1),)
 _NEARER: Rule = (('standoff_m', -1),)
 _CLOSER: Rule = (('distance_m', -1),)
 _SMALLER: Rule = (('radius_m', -1), ('0', -1), ('1', -1))
@@ -45,7 +46,7 @@ LACKED: Mapping[str, tuple[Rule, ...]] = MappingProxyType(
     {
         'clearance': (_HIGHER, _ROUND_IT, (*_HIGHER, *_SMALLER, *_NEARER)),
         'pattern': (_SMALLER, _HIGHER, (*_SMALLER, *_HIGHER)),
-        'sight': (_NEARER, _HIGHER, (*_NEARER, *_HIGHER)),
+        'sight': (_NEARER, _HIGHER, _LOWER, (*_NEARER, *_HIGHER)),
         'separation': ((('standoff_m', 1),), _HIGHER),
         'way_between_missions': (_HIGHER,),
         'road': (_CLOSER,),
@@ -72,7 +73,7 @@ def revised_to_fit(
     """
     counts = failure.rejected_by or {failure.reason: 1}
     lacked = sorted(counts, key=lambda name: (-counts[name], name))
-    rules = [rule for reason in lacked for rule in LACKED.get(reason, ())]
+    rules = [rule for reason in lacked for rule in _by_room(agsg, LACKED.get(reason, ()))]
     implicated = tuple(_at_fault(agsg, rules, failure))
     given: list[RepairPlan] = []
     for share in settings.steps:
@@ -89,6 +90,20 @@ def revised_to_fit(
                     implicated=implicated,
                     reason=f'no place ({failure.told}); {_told(plan.values)}',
                 )
+
+
+def _by_room(agsg: Agsg, rules: Sequence[Rule]) -> list[Rule]:
+    """Return rules with the first of higher and lower that has more room: a UAV that sees nothing
+    from high up is more likely too far away than too low to see over what stands between.
+    """
+    found = list(rules)
+    if _HIGHER in found and _LOWER in found:
+        rows = _open_rows(agsg, _HIGHER)
+        room = sum((row.high + row.low) / 2.0 - row.requested for row, _ in rows)
+        if room < 0.0:
+            found.remove(_LOWER)
+            found.insert(found.index(_HIGHER), _LOWER)
+    return found
 
 
 def _open_rows(agsg: Agsg, rule: Rule) -> list[tuple[AgsgParameter, int]]:

@@ -98,7 +98,26 @@ def _not_repaired(report: RunReport) -> str:
     why = f': {last.reason}' if last.bag is None else ''
     if not tried:
         return f'{told} Repair had nothing to try{why}.'
-    return f'{told} {tried} other realisation{"s" * (tried > 1)} did not hold either{why}.'
+    always = f' (in none of them: {", ".join(ids)})' if (ids := _never(report)) else ''
+    plural = 's' * (tried > 1)
+    return f'{told} {tried} other realisation{plural} did not hold either{always}{why}.'
+
+
+def _never(report: RunReport) -> list[str]:
+    """Return the conditions that held in no realisation: no place or value that was tried helps.
+
+    What follows from something that never happened is left out where something has a margin.
+    """
+    made = [repair for repair in report.repairs if repair.bag is not None]
+    margins = [{row.condition: row.realised for row in repair.margins} for repair in made]
+    failed = [row for row in report.conditions if not row.satisfied]
+    failed = [row for row in failed if row.margin is not None] or failed
+    never = [
+        row.id
+        for row in failed
+        if all((margin := found.get(row.id)) is None or margin < 0.0 for found in margins)
+    ]
+    return never[:_SHOWN]
 
 
 def _lost(report: RunReport) -> str:

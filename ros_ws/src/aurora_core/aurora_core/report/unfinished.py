@@ -13,6 +13,7 @@ from aurora_core.errors import ReportError
 from aurora_core.files import DOCUMENT_BYTES, MANIFEST_BYTES, read_bytes, read_text
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import RunFacts
+from aurora_core.report.finished import with_finished
 from aurora_core.report.manifest import Manifest
 from aurora_core.report.process import ProcessIdentity, process_lives
 from aurora_core.report.run_folder import MANIFEST, PROMPT, REPORT, RunFolder, is_run_id
@@ -74,4 +75,4 @@ def _close(folder: RunFolder, manifest: Manifest) -> None:
             hint='the stages that were finished are in the run folder; run the prompt again',
         ),
     )
-    folder.write_json(REPORT, build_report(facts))
+    folder.write_json(REPORT, build_report(with_finished(facts, folder)))

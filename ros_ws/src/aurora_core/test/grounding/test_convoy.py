@@ -11,18 +11,20 @@ import pytest
 
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.distances import DETACHED_M
-from aurora_core.grounding.ties import BeforePlace
+from aurora_core.grounding.ties import BeforePlace, Tie, agreed
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
+    AgentAction,
     Behavior,
     DistanceTrigger,
     Event,
     GroundAgent,
     Placement,
     ScenarioSpec,
+    SendMessage,
     Uav,
     UavMission,
 )
@@ -460,3 +462,25 @@ def test_at_the_kerb_one_is_beside_who_is_in_the_lane(
     }
     places = _places(split)
     assert places['van'][1] - places['ego'][1] == lanes
+
+
+def test_who_follows_is_behind_whatever_else_brings_both_near_each_other() -> None:
+    # The truck is told to be near the van, which hears it; the van follows the truck.
+    near = Tie('truck1', 'van1', -20.0, 0, guess=True)
+    follows = Tie('van1', 'truck1', -20.0, 0, free=True, guess=True)
+    assert agreed([near, follows]) == [follows]
+    assert agreed([follows, near]) == [follows]
+    said = Tie('van1', 'truck1', 30.0, 0)
+    assert agreed([near, follows, said]) == [said]
+
+
+def test_who_is_only_told_something_by_a_uav_does_not_stand_before_who_sets_off() -> None:
+    # The police car stays until the UAV has landed, the truck starts before.
+    truck = _agent('truck1', (Relation.AT, 'intersection', None), kind=AgentType.TRUCK)
+    police = _agent('police1', kind=AgentType.POLICE)
+    starts = Event(id='e1', action=AgentAction(do='start', agent='truck1'))
+    message = SendMessage(do='send_message', sender='uav1', receiver='police1')
+    told = Event(id='e2', action=message)
+    uav = Uav(id='uav1')
+    places = _places(split_scene(_spec(truck, police, uavs=(uav,), events=(starts, told))))
+    assert places['police1'][0] < places['truck1'][0]

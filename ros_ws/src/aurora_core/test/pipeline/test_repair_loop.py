@@ -169,6 +169,10 @@ def test_a_spent_budget_ends_violated_with_the_best_realisation(tmp_path: Path) 
     assert report.metrics.worst_normalised == -0.2
     assert [b.bag for b in report.bags or ()] == ['bag.0', 'bag.1', 'bag.2']
     assert 'bag.3' not in names(tmp_path)
+    [failed] = [row.id for row in report.conditions if not row.satisfied]
+    assert f'2 other realisations did not hold either (in none of them: {failed})' in (
+        report.summary
+    )
 
 
 def test_no_better_realisation_leaves_the_first_one(tmp_path: Path) -> None:

@@ -16,8 +16,8 @@ from aurora_core.outcomes.agsg import Agsg, Stage
 from aurora_core.outcomes.repair import Anchor, RepairPlan, ValueEdit
 from aurora_core.pipeline.functions import execution_stage, ground_stage, parse_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
-from aurora_core.pipeline.repairing import anchor_of
 from aurora_core.pipeline.verification import recorded_plan
+from aurora_core.repair.attempts import anchor_of
 
 _KNOWN = installed_knowledge()
 PROMPT = (

@@ -14,6 +14,8 @@ from aurora_core.outcomes.verdict import Verdict
 from aurora_core.repair.experience import (
     Lesson,
     RepairEpisode,
+    Taught,
+    estimates,
     learned,
     lessons,
     move,
@@ -63,14 +65,27 @@ def test_what_helped_before_is_tried_before_what_did_not(
             Lesson(move=move(SEEN, ANCHOR, 0), helped=True),
         )
         remember_repairs(tmp_path, RepairEpisode(id=f'run{k}', lessons=rows))
-    found = localize(agsg, verdict, learned(tmp_path))
+    found = localize(agsg, verdict, learned(tmp_path).moves)
     assert found[0].field == ANCHOR
     # It orders, and takes nothing in or out.
     assert {item.field for item in found} == set(usual)
 
 
+def test_the_error_of_the_replay_is_what_past_runs_measured(agsg: Agsg, tmp_path: Path) -> None:
+    off = attempt(1, 0.1).model_copy(update={'predicted': {'m1.visible': 0.4}})
+    right = attempt(2, 0.3).model_copy(update={'predicted': {'m1.visible': 0.2}})
+    missed = estimates((attempt(0, -0.5), off, right), agsg.conditions)
+    assert missed == {SEEN: (0.3, 0.0)}
+    for k in range(4):
+        remember_repairs(tmp_path, RepairEpisode(id=f'run{k}', lessons=(), missed=missed))
+    # Too few to go by.
+    assert learned(tmp_path).errors == {}
+    remember_repairs(tmp_path, RepairEpisode(id='run4', lessons=(), missed=missed))
+    assert learned(tmp_path).errors == {SEEN: 0.3}
+
+
 def test_an_empty_history_changes_nothing_and_a_damaged_one_is_told(tmp_path: Path) -> None:
-    assert learned(tmp_path) == {}
+    assert learned(tmp_path) == Taught()
     remember_repairs(tmp_path, RepairEpisode(id='run1', lessons=()))
     (tmp_path / 'repairs' / 'run2.json').write_text('{', encoding='utf-8')
     with pytest.raises(ConfigError, match='is no episode'):

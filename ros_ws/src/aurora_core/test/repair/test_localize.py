@@ -30,6 +30,15 @@ def test_a_height_helps_distances_that_count_it_alone() -> None:
         assert straight - level == {'altitude_m'}
 
 
+def test_what_comes_too_early_is_helped_by_what_takes_longer() -> None:
+    early, late = (
+        {(item.name, item.direction) for item in helps(QuantityName.EVENT_TIME, op)}
+        for op in ('>=', '<=')
+    )
+    assert {('speed_mps', -1), ('distance_m', 1), ('altitude_m', 1)} <= early
+    assert ('distance_m', -1) in late - early
+
+
 def test_lost_sight_implicates_the_own_flight_with_a_reason(agsg: Agsg, failing: Failing) -> None:
     found = localize(agsg, failing(m1__visible=-0.4))
     first = [item.field for item in found][:3]

@@ -93,6 +93,25 @@ def test_a_threshold_moves_with_what_it_hangs_on_alone(agsg: Agsg) -> None:
     assert why.startswith('van1.tailgate has another threshold')
 
 
+def test_what_is_to_happen_before_the_run_ends_moves_with_its_end_alone(agsg: Agsg) -> None:
+    planned = agsg.schedule
+    assert planned is not None
+    end_s = planned.horizon_s
+
+    def ending(horizon_s: float, threshold: float) -> Agsg:
+        schedule = planned.model_copy(update={'horizon_s': horizon_s})
+        rows = tuple(
+            c.model_copy(update={'threshold': threshold}) if c.id == 'van1.tailgate' else c
+            for c in agsg.conditions
+        )
+        return agsg.model_copy(update={'schedule': schedule, 'conditions': rows})
+
+    before = ending(end_s, end_s)
+    assert list(outside(before, ending(end_s + 9.0, end_s + 9.0), set())) == []
+    [why] = outside(before, ending(end_s + 9.0, end_s + 10.0), set())
+    assert why.startswith('van1.tailgate has another threshold')
+
+
 def test_a_request_without_that_element_is_no_realisation_of_it() -> None:
     first = parse_stage(_KNOWN, 'A drone hovers over the ego car.', 'downtown', 1).agsg
     assert first is not None

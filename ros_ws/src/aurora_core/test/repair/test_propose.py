@@ -36,6 +36,15 @@ def test_a_scene_that_did_not_come_true_goes_to_another_road(agsg: Agsg, failing
     assert 'van1.tailgate misses by 0.5' in found.reason
 
 
+def test_who_tells_nothing_of_the_past_asks_of_the_realisation_alone(
+    agsg: Agsg, failing: Failing
+) -> None:
+    assert agsg.grounding is not None
+    found = propose(agsg, failing(van1__tailgate=-0.5), (), SETTINGS)
+    assert found.step is Step.GROUNDING
+    assert [place.lane for place in found.plan.avoided] == [agsg.grounding.anchor_lane]
+
+
 def test_where_no_other_road_does_another_place_of_the_same_is_tried_then_none(
     agsg: Agsg, failing: Failing
 ) -> None:

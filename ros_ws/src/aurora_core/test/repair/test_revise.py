@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from aurora_core.agsg.build import build_agsg
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounding import GroundingFailure
-from aurora_core.outcomes.repair import Anchor, Attempt, Proposal, Step
+from aurora_core.outcomes.repair import Anchor, Attempt, Proposal, Step, ValueEdit, with_values
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.functions import parse_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
@@ -14,6 +15,7 @@ from aurora_core.repair.lock import locked_edits
 from aurora_core.repair.propose import propose
 from aurora_core.repair.revise import MOST_FIELDS, revised_to_fit
 from aurora_core.repair.settings import RepairSettings, load_repair_settings
+from aurora_core.spec.parameter import Provenance
 
 _KNOWN = installed_knowledge()
 SETTINGS = load_repair_settings()
@@ -50,6 +52,26 @@ def test_what_most_sites_lacked_is_revised_first() -> None:
     first = to_fit(agsg, 'separation', 'sight')[0]
     assert [edit.path for edit in first.plan.values] == [STANDOFF]
     assert [e.path for e in to_fit(agsg, 'sight', 'separation')[0].plan.values] == [ALTITUDE]
+
+
+def test_who_sees_nothing_from_high_up_is_put_lower_first() -> None:
+    usual = parsed('In fog, a drone hovers over an intersection and sees a bus for 5 seconds.')
+    high = ValueEdit(path=ALTITUDE, requested=30.0, realised=84.0, provenance=Provenance.DEFAULT)
+    agsg = build_agsg(with_values(usual.spec, (high,)))
+    [down], [up] = (proposal.plan.values for proposal in to_fit(agsg, 'sight')[:2])
+    assert down.realised < 84.0 < up.realised
+    [up], [down] = (proposal.plan.values for proposal in to_fit(usual, 'sight')[:2])
+    assert down.realised < 30.0 < up.realised
+
+
+def test_what_most_often_gives_sight_is_moved_far_as_well() -> None:
+    usual = parsed('In fog, a drone tracks a bus.')
+    far = ValueEdit(path=STANDOFF, requested=0.0, realised=120.0, provenance=Provenance.DEFAULT)
+    agsg = build_agsg(with_values(usual.spec, (far,)))
+    tried = [p.plan.values for p in to_fit(agsg, 'sight')[: SETTINGS.placements]]
+    alone = [v[0].realised for v in tried if [e.path for e in v] == [STANDOFF]]
+    # Beyond 75 m nobody sees anything in fog.
+    assert min(alone) < 60.0
 
 
 def test_nothing_stated_is_revised_and_what_no_value_mends_is_left() -> None:

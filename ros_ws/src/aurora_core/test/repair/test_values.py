@@ -16,7 +16,7 @@ from aurora_core.outcomes.repair import (
     ValueEdit,
 )
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.pipeline.repairing import anchor_of
+from aurora_core.repair.attempts import anchor_of
 from aurora_core.repair.localize import localize
 from aurora_core.repair.objective import objective
 from aurora_core.repair.settings import load_repair_settings

@@ -99,8 +99,8 @@ class Replay:
         return '' if condition is None else kind_of(condition)
 
     def _measured(self, past: Sequence[Attempt]) -> dict[str, float]:
-        """Return the errors by kind of condition: the table, and what this run shows beyond it."""
-        found = dict(self._settings.errors)
+        """Return the errors by kind of condition: of the table, past runs and this one."""
+        found = {**self._settings.errors, **(past[0].errors if past else {})}
         for attempt in past:
             for name, expected in attempt.predicted.items():
                 came = attempt.margins.get(name)
