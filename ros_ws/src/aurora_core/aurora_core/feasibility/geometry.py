@@ -15,24 +15,14 @@ from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
 from aurora_core.feasibility.operands import AT_LEAST, whole
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
-from aurora_core.spec.events import reports_own_altitude
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import (
-    Link,
-    ScenarioSpec,
-    SendMessage,
-    StatedCondition,
-    UavAction,
-    UavMission,
-)
+from aurora_core.spec.scenario import ScenarioSpec, StatedCondition, UavAction, UavMission
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode
 
-# Quantities that say how far two stay from each other.
-_BETWEEN = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE, QuantityName.SEPARATION)
 # No point of a target that is looked at stands higher: half the height of the tallest vehicle.
-_TARGET_HEIGHT_M = 2.0
+TARGET_HEIGHT_M = 2.0
 
 
 class Geometry:
@@ -73,15 +63,7 @@ class Geometry:
         near, far = self.horizontal(mission)
         if mission.target in self._flying:
             return near, math.hypot(self._limits.uav_altitude_max_m, far)
-        return math.hypot(max(0.0, low - _TARGET_HEIGHT_M), near), math.hypot(high, far)
-
-    def while_sending(self, mission: UavMission) -> float:
-        """Return how near a UAV that sends to its target is at least, in metres."""
-        if mission.mode is MissionMode.TRACK:
-            return self.slant(mission)[0]
-        if mission.target in self._flying:
-            return 0.0
-        return max(0.0, self.altitude(mission)[0] - _TARGET_HEIGHT_M)
+        return math.hypot(max(0.0, low - TARGET_HEIGHT_M), near), math.hypot(high, far)
 
     def facts(self, mission: UavMission) -> tuple[Fact, ...]:
         """Return what these distances follow from."""
@@ -111,81 +93,11 @@ def altitude_changes(spec: ScenarioSpec) -> dict[str, dict[str, Parameter]]:
 def check_geometry(
     spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
 ) -> Iterator[Certificate]:
-    """Return what radio, separation and stated distances rule out."""
+    """Return what separation and stated distances rule out."""
     geometry = Geometry(spec, limits, tolerances)
-    yield from _radio(spec, limits, geometry)
     yield from _separation(spec, limits)
     yield from _stated_distances(spec, limits, geometry)
     yield from _tracked_from_afar(spec, limits)
-
-
-def _radio(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[Certificate]:
-    """A UAV sends only after its ascent: then it is as high as one of its phases at least.
-
-    Who tracks sends when it is at its place; on the way to a hover it may pass nearer. Its own
-    altitude it reports on its way up. What a UAV receives may come while it stands on the ground.
-    """
-    sent = {
-        (e.action.sender, e.action.receiver)
-        for e in spec.events
-        if isinstance(e.action, SendMessage)
-    }
-    climbing = {getattr(e.action, 'sender', '') for e in spec.events if reports_own_altitude(e)}
-    for link in spec.links:
-        pair = (link.sender, link.receiver)
-        if pair not in sent:
-            continue
-        yield from _kept_out_of_range(spec, link, limits)
-        if link.range_m is None or not is_stated(link.range_m) or link.sender in climbing:
-            continue
-        flown = [m for m in spec.missions if m.uav == link.sender]
-        if not flown or any(m.target != link.receiver for m in flown):
-            continue
-        near = min(geometry.while_sending(m) for m in flown)
-        if near > link.range_m.value and link.range_m.bound is not Bound.AT_LEAST:
-            yield beyond(
-                Rule.RADIO,
-                'comm_range',
-                link.range_m,
-                f'links/{link.id}/range_m',
-                ('range_m', link.range_m.value),
-                f'{link.sender} and {link.receiver} would be at least {near:.0f} m apart; '
-                f'the link reaches {link.range_m.value:g} m.',
-                (
-                    *says(f'links/{link.id}/range_m', link.range_m),
-                    *(fact for m in flown for fact in geometry.facts(m)),
-                ),
-            )
-
-
-def _kept_out_of_range(spec: ScenarioSpec, link: Link, limits: Limits) -> Iterator[Certificate]:
-    """`the two never come nearer than 300 m`, and their link reaches 120 m."""
-    reach = link.range_m
-    stated = reach is not None and is_stated(reach)
-    if reach is not None and (not stated or reach.bound is Bound.AT_LEAST):
-        return
-    reach_m = limits.link_range_sight_m if reach is None else reach.value
-    for condition in spec.conditions:
-        apart = condition.quantity in _BETWEEN and condition.op in AT_LEAST
-        both = set(condition.of) == {link.sender, link.receiver}
-        if not (apart and both and whole(condition) and is_stated(condition.value)):
-            continue
-        if condition.value.value > reach_m:
-            at_limit = () if stated else limit_facts(limits, 'link_range_sight_m')
-            yield beyond(
-                Rule.RADIO,
-                'comm_range',
-                reach if reach is not None else condition.value,
-                f'links/{link.id}/range_m',
-                ('range_m' if stated else 'link_range_sight_m', reach_m),
-                f'{link.sender} and {link.receiver} are to stay {condition.value.value:g} m '
-                f'apart; the link reaches {reach_m:g} m.',
-                (
-                    *says(f'links/{link.id}/range_m', reach),
-                    *says(f'conditions/{condition.id}/value', condition.value),
-                    *at_limit,
-                ),
-            )
 
 
 def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
