@@ -9,6 +9,7 @@ from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
+from aurora_core.recheck.operands import SLOWS, is_split
 from aurora_core.recheck.request import Request, left_open, names_of, sent_to, stated
 from aurora_core.recheck.zones import farthest, read_whole
 
@@ -69,12 +70,45 @@ def sensing(proof: Certificate, request: Request) -> list[Step]:
     mission = request.one(proof.path)
     if mission is None or mission.get('target') is None or mission['mode'] == 'navigate':
         return [(False, f'{proof.path} looks at a target')]
-    near, _ = straight(request, mission)
+    kept = _kept_off(request, mission)
+    near = max(straight(request, mission)[0], _kept_straight(request, mission, kept))
     return [
         same(proof, reach),
-        asked(proof, mission['altitude_m'], mission.get('standoff_m')),
+        asked(
+            proof, mission['altitude_m'], mission.get('standoff_m'), *(c['value'] for c in kept)
+        ),
         (near > reach, f'it is {near:.1f} m away at least, the camera reaches {reach:g} m'),
     ]
+
+
+def _kept_off(request: Request, mission: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return conditions on a UAV's height, or its distance from its target, all the time."""
+    if is_split(request, {mission['uav']}):
+        return []
+    pair = {mission['uav'], mission['target']}
+    flies = mission['target'] in names_of(request, 'uavs')
+    return [
+        c
+        for c in request.all('conditions')
+        if c['op'] in ('>', '>=') and not is_partial(c) and stated(c['value'])
+        if (c['quantity'] in ('distance', 'horizontal_distance') and set(c['of']) == pair)
+        or (c['quantity'] == 'altitude' and list(c['of']) == [mission['uav']] and not flies)
+    ]
+
+
+def _kept_straight(request: Request, mission: dict[str, Any], kept: list[dict[str, Any]]) -> float:
+    """Return the least straight distance that conditions leave to the target of a phase."""
+
+    def most(quantity: str, otherwise: float) -> float:
+        values = [float(c['value']['value']) for c in kept if c['quantity'] == quantity]
+        return max([otherwise, *values])
+
+    up = 0.0
+    if mission['target'] not in names_of(request, 'uavs'):
+        up = max(0.0, most('altitude', heights(request, mission)[0]) - TOP_OF_TARGET_M)
+    aside = most('horizontal_distance', _aside(request, mission)[0])
+    # A distance is measured to the ground, sight to the middle of a body.
+    return max(most('distance', 0.0) - TOP_OF_TARGET_M, math.sqrt(up**2 + aside**2))
 
 
 def _place_in_sight(proof: Certificate, request: Request, reach: float) -> list[Step]:
@@ -192,7 +226,7 @@ def flight_band(proof: Certificate, request: Request) -> list[Step]:
         (not free and stated(condition['value']), 'the condition is for the whole flight'),
         (
             bool(excluded) and all(excluded),
-            f'{condition["quantity"]} {op} {value:g} m is out of reach of every phase',
+            f'{condition["quantity"]} {op} {value:g} is out of reach of every phase and drive',
         ),
     ]
 
@@ -201,14 +235,38 @@ def _bands(condition: dict[str, Any], request: Request) -> list[tuple[float, flo
     bodies, quantity = set(condition['of']), condition['quantity']
     if quantity == 'altitude':
         return [heights(request, m) for m in request.all('missions') if {m['uav']} == bodies]
+    if quantity == 'speed':
+        return _speeds(condition, request)
     measured = {'distance': straight, 'horizontal_distance': _aside}.get(quantity)
     if measured is None:
         return []
-    return [
-        measured(request, m)
+    found = []
+    for mission in (m for m in request.all('missions') if m['uav'] in bodies):
+        if mission['mode'] != 'navigate' and {mission['uav'], mission.get('target')} == bodies:
+            found.append(measured(request, mission))
+        elif quantity == 'distance' and not bodies - {mission['uav']} & names_of(request, 'uavs'):
+            # It is on the ground, wherever it is.
+            lowest = heights(request, mission)[0]
+            found.append((max(0.0, lowest - TOP_OF_TARGET_M), math.inf))
+    return found
+
+
+def _speeds(condition: dict[str, Any], request: Request) -> list[tuple[float, float]]:
+    """Return the stated speeds of a route or a drive, which hold for most of it."""
+    (name,) = condition['of']
+    if is_split(request, {name}):
+        return []
+    numbers = [
+        m['speed_mps']
         for m in request.all('missions')
-        if m['mode'] != 'navigate' and {m['uav'], m.get('target')} == bodies
+        if m['uav'] == name and m['mode'] == 'navigate' and stated(m.get('speed_mps'))
     ]
+    agent = request.one(f'agents/{name}')
+    if agent is not None and condition['op'] in ('<', '<='):
+        behaviors = agent.get('behaviors', ())
+        if not any(b['kind'] in SLOWS for b in behaviors):
+            numbers += [b['speed_mps'] for b in behaviors if stated(b.get('speed_mps'))]
+    return [left_open(n, request.slack('route_speed_mps', n)) for n in numbers]
 
 
 def afar(proof: Certificate, request: Request) -> list[Step]:
