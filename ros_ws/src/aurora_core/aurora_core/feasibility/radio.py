@@ -158,32 +158,16 @@ class Flight:
     def facts(self) -> tuple[Fact, ...]:
         """Return what these distances follow from."""
         geometry = Geometry(self.spec, self.limits, self.tolerances)
-        trigger = self.event.trigger
-        timed = isinstance(trigger, TimeTrigger)
-        base = f'events/{self.event.id}'
-        return tuple(
-            dict.fromkeys(
-                (
-                    *(fact for m in self.missions for fact in geometry.facts(m)),
-                    *(
-                        fact
-                        for m in self.missions
-                        for fact in says(f'missions/{m.id}/duration_s', m.duration_s)
-                        if timed
-                    ),
-                    *(says(f'{base}/trigger/at_s', trigger.at_s) if timed else ()),
-                    *(says(f'{base}/delay_s', self.event.delay_s) if timed else ()),
-                    *limit_facts(self.limits, 'uav_climb_max_mps', 'uav_descent_max_mps'),
-                    *tolerance_facts(
-                        self.tolerances,
-                        'duration_s',
-                        'event_delay_s',
-                        'delivery_s',
-                        'limit_margin',
-                    ),
-                )
-            )
-        )
+        found = [fact for m in self.missions for fact in geometry.facts(m)]
+        trigger, base = self.event.trigger, f'events/{self.event.id}'
+        if isinstance(trigger, TimeTrigger):
+            found += says(f'{base}/trigger/at_s', trigger.at_s)
+            found += says(f'{base}/delay_s', self.event.delay_s)
+            for mission in self.missions:
+                found += says(f'missions/{mission.id}/duration_s', mission.duration_s)
+        found += limit_facts(self.limits, 'uav_climb_max_mps', 'uav_descent_max_mps')
+        slack = ('duration_s', 'event_delay_s', 'delivery_s', 'limit_margin')
+        return tuple(dict.fromkeys([*found, *tolerance_facts(self.tolerances, *slack)]))
 
 
 def _too_far(spec: ScenarioSpec, link: Link, event: Event, flight: Flight) -> Certificate | None:

@@ -19,7 +19,7 @@ from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import LANDMARK
-from aurora_core.spec.scenario import AgentAction, ScenarioSpec, UavMission
+from aurora_core.spec.scenario import AgentAction, ScenarioSpec, StatedCondition, UavMission
 from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Relation
 
@@ -43,7 +43,7 @@ def _targets(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator
     for mission in spec.missions:
         if mission.target is None or mission.mode is MissionMode.NAVIGATE:
             continue
-        near, kept = geometry.slant(mission)[0], ()
+        near, kept = geometry.slant(mission)[0], tuple[StatedCondition, ...]()
         if near <= reach:
             near, kept = geometry.slant_kept_m(mission), geometry.kept_off(mission)
         if near > reach:
