@@ -246,7 +246,7 @@ def _radio(spec: Doc, over: bool) -> Doc | None:
     sends = [e for e in spec['events'] if (e.get('action') or {}).get('sender') == mission['uav']]
     if len(sends) != 1 or spec['conditions'] or _stated(mission.get('standoff_m')):
         return None
-    if len(spec['events']) > 1 or _stated(spec['world'].get('duration_s')) or spec['orders']:
+    if len(spec['events']) > 1 or _stated(spec['world'].get('duration_s')) or spec.get('orders'):
         return None
     # It is sent before the drone lands: then it may be as near as it likes.
     sends[0] |= {'trigger': {'on': 'time', 'at_s': _said(spec, 50.0, 's')}, 'delay_s': None}
