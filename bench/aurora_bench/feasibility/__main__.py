@@ -31,7 +31,7 @@ from aurora_cli.installed import installed
 from aurora_core.spec.scenario import ScenarioSpec
 
 # Who says it: the offline reader, or a specification.
-_READ = ('prompt', 'typed')
+_READ = ('prompt', 'typed', 'second')
 _SOURCES = (*_READ, 'annotation', 'push', 'reference')
 
 

@@ -16,7 +16,8 @@ from aurora_bench.prompts.reference_spec import reference_spec
 from aurora_core.spec.scenario import ScenarioSpec
 
 _FAMILIES = 'families.yaml'
-_TYPED = 'typed.yaml'
+# Requests as people type them, by two authors.
+_TYPED = {'typed': 'typed.yaml', 'second': 'second.yaml'}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,8 +26,8 @@ class Case:
 
     Attributes:
         id: Family or push, with its number.
-        source: `prompt` and `typed` are read by the offline parser; `annotation`, `push` and
-            `reference` are specifications.
+        source: `prompt`, `typed` and `second` are read by the offline parser; `annotation`, `push`
+            and `reference` are specifications.
         because: Fair reasons to refuse it; empty for what must not be refused.
         spec: None for a prompt.
         document: The annotation: of a specification, that it was built from; of a prompt, what it
@@ -76,12 +77,13 @@ def typed_cases() -> Iterator[Case]:
 
     A reason may be several that are fair, with spaces between them.
     """
-    typed = yaml.safe_load(files(__package__).joinpath(_TYPED).read_text('utf-8'))
-    for side, name in (('cannot', 'refused'), ('can', 'kept')):
-        for k, row in enumerate(typed[side], start=1):
-            because = tuple(row['because'].split()) if side == 'cannot' else ()
-            ident = f'{row["because"].split()[0]}-{name}-{k}'
-            yield Case(id=ident, source='typed', prompt=row['prompt'].strip(), because=because)
+    for source, file in _TYPED.items():
+        typed = yaml.safe_load(files(__package__).joinpath(file).read_text('utf-8'))
+        for side, name in (('cannot', 'refused'), ('can', 'kept')):
+            for k, row in enumerate(typed[side], start=1):
+                because = tuple(row['because'].split()) if side == 'cannot' else ()
+                ident = f'{row["because"].split()[0]}-{name}-{k}'
+                yield Case(id=ident, source=source, prompt=row['prompt'].strip(), because=because)
 
 
 def _annotated(

@@ -243,10 +243,14 @@ def _radio(spec: Doc, over: bool) -> Doc | None:
         return None
     if {link['sender'], link['receiver']} != {mission['uav'], mission['target']}:
         return None
-    sends = any((e.get('action') or {}).get('sender') == mission['uav'] for e in spec['events'])
-    if not sends or spec['conditions'] or _stated(mission.get('standoff_m')):
+    sends = [e for e in spec['events'] if (e.get('action') or {}).get('sender') == mission['uav']]
+    if len(sends) != 1 or spec['conditions'] or _stated(mission.get('standoff_m')):
         return None
-    mission['altitude_m'] = _said(spec, 60.0, 'm')
+    if len(spec['events']) > 1 or _stated(spec['world'].get('duration_s')) or spec.get('orders'):
+        return None
+    # It is sent before the drone lands: then it may be as near as it likes.
+    sends[0] |= {'trigger': {'on': 'time', 'at_s': _said(spec, 50.0, 's')}, 'delay_s': None}
+    mission |= {'altitude_m': _said(spec, 60.0, 'm'), 'duration_s': _said(spec, 90.0, 's')}
     link['range_m'] = _said(spec, 45.0 if over else 130.0, 'm')
     return spec
 

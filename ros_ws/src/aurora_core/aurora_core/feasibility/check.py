@@ -16,6 +16,7 @@ from aurora_core.feasibility.operands import operands_fit
 from aurora_core.feasibility.places import check_placements
 from aurora_core.feasibility.pursuit import check_pursuit
 from aurora_core.feasibility.quotes import rests_on_unread, with_clauses
+from aurora_core.feasibility.radio import check_radio
 from aurora_core.feasibility.roofs import check_roofs, check_walls
 from aurora_core.feasibility.rounds import check_rounds
 from aurora_core.feasibility.scene import check_scene
@@ -150,6 +151,7 @@ def _checks(
     return (
         numbers,
         lambda spec: check_sight(spec, map_model, limits, tolerances),
+        lambda spec: check_radio(spec, limits, tolerances),
         lambda spec: check_geometry(spec, limits, tolerances),
         lambda spec: check_pursuit(spec, limits, tolerances),
         lambda spec: check_bounds(spec, limits, tolerances),

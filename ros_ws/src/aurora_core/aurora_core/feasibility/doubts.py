@@ -9,6 +9,7 @@ from math import ceil, hypot, inf, isfinite
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.radio import check_radio
 from aurora_core.feasibility.rounds import check_rounds
 from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.sight import check_sight
@@ -63,12 +64,16 @@ def doubts(
     yield from (f'{s} They may be meant for different parts of the run.' for s in sorted(told))
     strained = (
         *check_sight(spec, map_model, close, exact),
+        *check_radio(spec, close, exact),
         *check_geometry(spec, close, exact),
         *check_times(spec, limits, exact, map_model),
         *check_rounds(spec, map_model.buildings, map_model.landmarks, close, exact),
     )
-    near = (c.sentence for c in strained if c.sentence not in known)
+    near = [c.sentence for c in strained if c.sentence not in known]
     yield from (f'{sentence} Only inside the tolerances it can be.' for sentence in near)
+    for far in check_radio(spec, close, exact, aloft=True):
+        if far.sentence not in known and far.sentence not in near:
+            yield f'{far.sentence} Only before and after its missions it may be nearer.'
     for closed in check_scene(spec, own=True):
         yield f'{closed.sentence} Some of them may be the same.'
     yield from _off_the_streets(spec, map_model)

@@ -9,36 +9,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from aurora_core.feasibility.certificates import beyond, contradiction, told
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
-from aurora_core.feasibility.operands import AT_LEAST, whole
+from aurora_core.feasibility.operands import AT_LEAST, AT_MOST, SLOWING, in_parts, whole
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
-from aurora_core.spec.events import reports_own_altitude
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import (
-    Link,
-    ScenarioSpec,
-    SendMessage,
-    StatedCondition,
-    UavAction,
-    UavMission,
-)
+from aurora_core.spec.reference import is_place
+from aurora_core.spec.scenario import ScenarioSpec, StatedCondition, UavAction, UavMission
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode
 
-# Quantities that say how far two stay from each other.
-_BETWEEN = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE, QuantityName.SEPARATION)
 # No point of a target that is looked at stands higher: half the height of the tallest vehicle.
-_TARGET_HEIGHT_M = 2.0
+TARGET_HEIGHT_M = 2.0
+# Quantities that say how far two stay from each other.
+_APART = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
 
 
 class Geometry:
     """The distances between a UAV and its target that a request leaves open."""
 
     def __init__(self, spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> None:
+        self._spec = spec
         self._flying = frozenset(uav.id for uav in spec.uavs)
         self._changes = altitude_changes(spec)
         self._limits = limits
@@ -73,15 +68,59 @@ class Geometry:
         near, far = self.horizontal(mission)
         if mission.target in self._flying:
             return near, math.hypot(self._limits.uav_altitude_max_m, far)
-        return math.hypot(max(0.0, low - _TARGET_HEIGHT_M), near), math.hypot(high, far)
+        return math.hypot(max(0.0, low - TARGET_HEIGHT_M), near), math.hypot(high, far)
 
-    def while_sending(self, mission: UavMission) -> float:
-        """Return how near a UAV that sends to its target is at least, in metres."""
-        if mission.mode is MissionMode.TRACK:
-            return self.slant(mission)[0]
-        if mission.target in self._flying:
-            return 0.0
-        return max(0.0, self.altitude(mission)[0] - _TARGET_HEIGHT_M)
+    def kept_off(self, mission: UavMission) -> tuple[StatedCondition, ...]:
+        """Return what keeps a UAV up, or away from its target, as long as a phase lasts."""
+        target, pair = mission.target, {mission.uav, mission.target}
+        if target is None or in_parts(self._spec, {mission.uav}):
+            return ()
+        return tuple(
+            c
+            for c in self._spec.conditions
+            if c.op in AT_LEAST
+            and whole(c)
+            and is_stated(c.value)
+            and (
+                (c.quantity in _APART and set(c.of) == pair)
+                or (
+                    c.quantity == QuantityName.ALTITUDE
+                    and set(c.of) == {mission.uav}
+                    and target not in self._flying
+                )
+            )
+        )
+
+    def slant_kept_m(self, mission: UavMission) -> float:
+        """Return the least straight distance to the target with all that keeps it off, metres."""
+        low = self.altitude(mission)[0]
+        near, straight = self.horizontal(mission)[0], self.slant(mission)[0]
+        for condition in self.kept_off(mission):
+            value = condition.value.value
+            if condition.quantity == QuantityName.ALTITUDE:
+                low = max(low, value)
+            elif condition.quantity == QuantityName.HORIZONTAL_DISTANCE:
+                near = max(near, value)
+            else:
+                # It is measured to the ground, sight to the middle of a body.
+                straight = max(straight, value - TARGET_HEIGHT_M)
+        up = 0.0 if mission.target in self._flying else max(0.0, low - TARGET_HEIGHT_M)
+        return max(straight, math.hypot(up, near))
+
+    def speed(self, mission: UavMission) -> tuple[float, float] | None:
+        """Return the speeds of a route for most of it, None where none is stated."""
+        stated = mission.speed_mps
+        if mission.mode is not MissionMode.NAVIGATE or stated is None or not is_stated(stated):
+            return None
+        slack = self._tolerances.route_speed_mps.of(stated.value, approximate=stated.approximate)
+        return least(stated, slack, 0.0), most(stated, slack, math.inf)
+
+    def speed_facts(self, mission: UavMission) -> tuple[Fact, ...]:
+        """Return what the speeds of a route follow from."""
+        return (
+            *says(f'missions/{mission.id}/speed_mps', mission.speed_mps),
+            *tolerance_facts(self._tolerances, 'route_speed_mps'),
+        )
 
     def facts(self, mission: UavMission) -> tuple[Fact, ...]:
         """Return what these distances follow from."""
@@ -111,81 +150,11 @@ def altitude_changes(spec: ScenarioSpec) -> dict[str, dict[str, Parameter]]:
 def check_geometry(
     spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
 ) -> Iterator[Certificate]:
-    """Return what radio, separation and stated distances rule out."""
+    """Return what separation and stated distances rule out."""
     geometry = Geometry(spec, limits, tolerances)
-    yield from _radio(spec, limits, geometry)
     yield from _separation(spec, limits)
-    yield from _stated_distances(spec, limits, geometry)
+    yield from _stated_distances(spec, limits, tolerances, geometry)
     yield from _tracked_from_afar(spec, limits)
-
-
-def _radio(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[Certificate]:
-    """A UAV sends only after its ascent: then it is as high as one of its phases at least.
-
-    Who tracks sends when it is at its place; on the way to a hover it may pass nearer. Its own
-    altitude it reports on its way up. What a UAV receives may come while it stands on the ground.
-    """
-    sent = {
-        (e.action.sender, e.action.receiver)
-        for e in spec.events
-        if isinstance(e.action, SendMessage)
-    }
-    climbing = {getattr(e.action, 'sender', '') for e in spec.events if reports_own_altitude(e)}
-    for link in spec.links:
-        pair = (link.sender, link.receiver)
-        if pair not in sent:
-            continue
-        yield from _kept_out_of_range(spec, link, limits)
-        if link.range_m is None or not is_stated(link.range_m) or link.sender in climbing:
-            continue
-        flown = [m for m in spec.missions if m.uav == link.sender]
-        if not flown or any(m.target != link.receiver for m in flown):
-            continue
-        near = min(geometry.while_sending(m) for m in flown)
-        if near > link.range_m.value and link.range_m.bound is not Bound.AT_LEAST:
-            yield beyond(
-                Rule.RADIO,
-                'comm_range',
-                link.range_m,
-                f'links/{link.id}/range_m',
-                ('range_m', link.range_m.value),
-                f'{link.sender} and {link.receiver} would be at least {near:.0f} m apart; '
-                f'the link reaches {link.range_m.value:g} m.',
-                (
-                    *says(f'links/{link.id}/range_m', link.range_m),
-                    *(fact for m in flown for fact in geometry.facts(m)),
-                ),
-            )
-
-
-def _kept_out_of_range(spec: ScenarioSpec, link: Link, limits: Limits) -> Iterator[Certificate]:
-    """`the two never come nearer than 300 m`, and their link reaches 120 m."""
-    reach = link.range_m
-    stated = reach is not None and is_stated(reach)
-    if reach is not None and (not stated or reach.bound is Bound.AT_LEAST):
-        return
-    reach_m = limits.link_range_sight_m if reach is None else reach.value
-    for condition in spec.conditions:
-        apart = condition.quantity in _BETWEEN and condition.op in AT_LEAST
-        both = set(condition.of) == {link.sender, link.receiver}
-        if not (apart and both and whole(condition) and is_stated(condition.value)):
-            continue
-        if condition.value.value > reach_m:
-            at_limit = () if stated else limit_facts(limits, 'link_range_sight_m')
-            yield beyond(
-                Rule.RADIO,
-                'comm_range',
-                reach if reach is not None else condition.value,
-                f'links/{link.id}/range_m',
-                ('range_m' if stated else 'link_range_sight_m', reach_m),
-                f'{link.sender} and {link.receiver} are to stay {condition.value.value:g} m '
-                f'apart; the link reaches {reach_m:g} m.',
-                (
-                    *says(f'links/{link.id}/range_m', reach),
-                    *says(f'conditions/{condition.id}/value', condition.value),
-                    *at_limit,
-                ),
-            )
 
 
 def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
@@ -261,9 +230,9 @@ def _widest_m(one: Parameter, other: Parameter) -> float:
 
 
 def _stated_distances(
-    spec: ScenarioSpec, limits: Limits, geometry: Geometry
+    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances, geometry: Geometry
 ) -> Iterator[Certificate]:
-    """A stated condition that no phase of the stated flight can meet.
+    """A stated condition that no phase of the stated flight, and no stated drive, can meet.
 
     Of several phases one may be meant.
     """
@@ -274,45 +243,91 @@ def _stated_distances(
         in_air = limits.uav_altitude_min_m <= value <= limits.uav_altitude_max_m
         if condition.quantity == QuantityName.ALTITUDE and not in_air:
             continue  # told of as a number beyond a limit
-        bands = [(m, _band(condition, m, geometry)) for m in spec.missions]
-        flown = [(m, band) for m, band in bands if band is not None]
+        bands = [*_flown(spec, condition, geometry), *_driven(spec, condition, tolerances)]
         outside = [
-            (condition.op in ('<', '<=') and low > value)
-            or (condition.op in AT_LEAST and high < value)
-            for _, (low, high) in flown
+            (condition.op in AT_MOST and band.low > value)
+            or (condition.op in AT_LEAST and band.high < value)
+            for band in bands
         ]
-        if not flown or not all(outside):
+        if not bands or not all(outside):
             continue
-        too_far = condition.op in ('<', '<=')
-        mission, (low, high) = flown[0]
+        too_much, band = condition.op in AT_MOST, bands[0]
         yield contradiction(
             Rule.FLIGHT_BAND,
             'spatial_contradiction',
             f'conditions/{condition.id}',
-            f'{told(condition)}; the flight of {mission.uav} as it is stated gives '
-            f'{"at least" if too_far else "at most"} {low if too_far else high:.1f} m.',
+            f'{told(condition)}; {band.what} as it is stated gives '
+            f'{"at least" if too_much else "at most"} '
+            f'{band.low if too_much else band.high:.1f} {condition.value.unit}.',
             condition.span,
             (
                 *says(f'conditions/{condition.id}/value', condition.value),
-                *(fact for m, _ in flown for fact in geometry.facts(m)),
+                *dict.fromkeys(fact for band in bands for fact in band.facts),
             ),
         )
 
 
+@dataclass(frozen=True, slots=True)
+class _Band:
+    """What a stated flight or drive gives for a condition's quantity."""
+
+    what: str
+    low: float
+    high: float
+    facts: tuple[Fact, ...]
+
+
+def _flown(spec: ScenarioSpec, condition: StatedCondition, geometry: Geometry) -> Iterator[_Band]:
+    """Yield what each phase gives that a condition may be about."""
+    for mission in spec.missions:
+        band = _band(spec, condition, mission, geometry)
+        if band is not None:
+            facts = geometry.facts(mission)
+            if condition.quantity == QuantityName.SPEED:
+                facts = geometry.speed_facts(mission)
+            yield _Band(f'the flight of {mission.uav}', *band, facts)
+
+
 def _band(
-    condition: StatedCondition, mission: UavMission, geometry: Geometry
+    spec: ScenarioSpec, condition: StatedCondition, mission: UavMission, geometry: Geometry
 ) -> tuple[float, float] | None:
     """Return what a flight gives for a condition's quantity; None when it is not about that."""
     bodies = set(condition.of)
     if condition.quantity == QuantityName.ALTITUDE:
         return geometry.altitude(mission) if bodies == {mission.uav} else None
-    if mission.mode is MissionMode.NAVIGATE or bodies != {mission.uav, mission.target}:
-        return None
-    if condition.quantity == QuantityName.DISTANCE:
-        return geometry.slant(mission)
-    if condition.quantity == QuantityName.HORIZONTAL_DISTANCE:
-        return geometry.horizontal(mission)
+    if condition.quantity == QuantityName.SPEED:
+        alone = bodies == {mission.uav} and not in_parts(spec, bodies)
+        return geometry.speed(mission) if alone else None
+    if mission.mode is not MissionMode.NAVIGATE and bodies == {mission.uav, mission.target}:
+        if condition.quantity == QuantityName.DISTANCE:
+            return geometry.slant(mission)
+        if condition.quantity == QuantityName.HORIZONTAL_DISTANCE:
+            return geometry.horizontal(mission)
+    below = bodies - {mission.uav}
+    grounded = {a.id for a in spec.agents}
+    on_ground = len(below) == 1 and all(n in grounded or is_place(n) for n in below)
+    if condition.quantity == QuantityName.DISTANCE and mission.uav in bodies and on_ground:
+        # Wherever it flies, whoever is on the ground is below it.
+        return max(0.0, geometry.altitude(mission)[0] - TARGET_HEIGHT_M), math.inf
     return None
+
+
+def _driven(
+    spec: ScenarioSpec, condition: StatedCondition, tolerances: Tolerances
+) -> Iterator[_Band]:
+    """Yield the stated speeds of who is never to be as fast; most of the time it drives so."""
+    if condition.quantity != QuantityName.SPEED or condition.op not in AT_MOST:
+        return
+    for agent in (a for a in spec.agents if (a.id,) == condition.of):
+        if in_parts(spec, {agent.id}) or any(b.kind in SLOWING for b in agent.behaviors):
+            continue
+        for k, behavior in enumerate(agent.behaviors):
+            speed = behavior.speed_mps
+            if speed is not None and is_stated(speed):
+                slack = tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
+                path = f'agents/{agent.id}/behaviors/{k}/speed_mps'
+                facts = (*says(path, speed), *tolerance_facts(tolerances, 'route_speed_mps'))
+                yield _Band(f'the drive of {agent.id}', least(speed, slack, 0.0), math.inf, facts)
 
 
 def _tracked_from_afar(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:

@@ -13,6 +13,7 @@ from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import is_place
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec, StatedCondition, UavAction
 from aurora_core.spec.stated import is_stated
+from aurora_core.spec.vocabulary import BehaviorKind
 
 AT_LEAST = ('>', '>=')
 AT_MOST = ('<', '<=')
@@ -23,6 +24,7 @@ _OF_UAV = (
     QuantityName.WAYPOINTS_VISITED,
     QuantityName.MISSION_COMPLETED,
     QuantityName.LANDED,
+    QuantityName.BATTERY,
 )
 _BETWEEN = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
 _SEEN = (QuantityName.VISIBLE_TIME, QuantityName.VISIBLE_FRACTION)
@@ -30,6 +32,18 @@ _SENT = (
     QuantityName.DELIVERED,
     QuantityName.DELIVERY_LATENCY,
     QuantityName.DELIVERY_RATIO,
+)
+
+# What a vehicle does beside driving that takes its speed from it.
+SLOWING = frozenset(
+    {
+        BehaviorKind.STOP,
+        BehaviorKind.BRAKE,
+        BehaviorKind.SLOW,
+        BehaviorKind.YIELD,
+        BehaviorKind.WAIT,
+        BehaviorKind.PARK,
+    }
 )
 
 

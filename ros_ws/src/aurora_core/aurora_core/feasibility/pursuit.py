@@ -14,26 +14,14 @@ from collections.abc import Iterator
 
 from aurora_core.feasibility.certificates import beyond
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
-from aurora_core.feasibility.operands import in_parts, upward, whole
+from aurora_core.feasibility.operands import SLOWING, in_parts, upward, whole
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission
 from aurora_core.spec.stated import is_stated, least, most
-from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
-
-# What a vehicle does beside driving that takes its speed from it.
-_SLOW = frozenset(
-    {
-        BehaviorKind.STOP,
-        BehaviorKind.BRAKE,
-        BehaviorKind.SLOW,
-        BehaviorKind.YIELD,
-        BehaviorKind.WAIT,
-        BehaviorKind.PARK,
-    }
-)
+from aurora_core.spec.vocabulary import MissionMode
 
 
 def check_pursuit(
@@ -86,7 +74,7 @@ _Speed = tuple[str, Parameter, float, float, tuple[Fact, ...]]
 
 def _speeds(spec: ScenarioSpec, agent: GroundAgent, tolerances: Tolerances) -> Iterator[_Speed]:
     """Yield stated speeds: where, the number, the least that meets it, for which share."""
-    if not any(b.kind in _SLOW for b in agent.behaviors):
+    if not any(b.kind in SLOWING for b in agent.behaviors):
         for k, behavior in enumerate(agent.behaviors):
             speed = behavior.speed_mps
             if speed is not None and is_stated(speed):

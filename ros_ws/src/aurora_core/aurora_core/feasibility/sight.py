@@ -19,7 +19,7 @@ from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import LANDMARK
-from aurora_core.spec.scenario import AgentAction, ScenarioSpec, UavMission
+from aurora_core.spec.scenario import AgentAction, ScenarioSpec, StatedCondition, UavMission
 from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Relation
 
@@ -43,18 +43,21 @@ def _targets(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator
     for mission in spec.missions:
         if mission.target is None or mission.mode is MissionMode.NAVIGATE:
             continue
-        near, _ = geometry.slant(mission)
+        near, kept = geometry.slant(mission)[0], tuple[StatedCondition, ...]()
+        if near <= reach:
+            near, kept = geometry.slant_kept_m(mission), geometry.kept_off(mission)
         if near > reach:
             yield beyond(
                 Rule.SENSING,
                 'sensing_range',
-                _leading(mission),
+                max((c.value for c in kept), key=lambda v: v.value, default=_leading(mission)),
                 f'missions/{mission.id}',
                 ('sensing_range_m', reach),
                 f'{mission.uav} would be at least {near:.0f} m from {mission.target}; its camera '
                 f'reaches {reach:g} m ({weather}, {hour}).',
                 (
                     *geometry.facts(mission),
+                    *(f for c in kept for f in says(f'conditions/{c.id}/value', c.value)),
                     *says('world/weather', weather),
                     *says('world/time_of_day', hour),
                     *limit_facts(limits, f'sensing_range_m/{weather}', f'sensing_factor/{hour}'),

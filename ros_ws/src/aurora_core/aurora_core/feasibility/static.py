@@ -25,6 +25,7 @@ _NEEDS = {
     QuantityName.WAYPOINTS_VISITED.value: 'one UAV',
     QuantityName.MISSION_COMPLETED.value: 'one UAV',
     QuantityName.LANDED.value: 'one UAV',
+    QuantityName.BATTERY.value: 'one UAV',
     QuantityName.SPEED.value: 'one body',
     QuantityName.EVENT_TIME.value: 'one event',
     QuantityName.SEPARATION.value: 'several bodies, or one group',
@@ -39,6 +40,7 @@ _SHARES = (
     QuantityName.TRACKED_FRACTION,
     QuantityName.VISIBLE_FRACTION,
     QuantityName.DELIVERY_RATIO,
+    QuantityName.BATTERY,
 )
 
 

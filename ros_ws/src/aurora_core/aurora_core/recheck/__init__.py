@@ -14,7 +14,17 @@ from types import MappingProxyType
 from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate, Rule
-from aurora_core.recheck import bounds, buildings, flights, places, pursuit, scene, schedule, zones
+from aurora_core.recheck import (
+    bounds,
+    buildings,
+    flights,
+    places,
+    pursuit,
+    radio,
+    scene,
+    schedule,
+    zones,
+)
 from aurora_core.recheck.finding import Finding, Outcome, Step, finding
 from aurora_core.recheck.limits import by_limit, by_sign
 from aurora_core.recheck.listings import by_listing
@@ -29,7 +39,7 @@ _DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
     {
         Rule.SIGN: lambda proof, request: by_sign(proof, request.spec),
         Rule.SENSING: flights.sensing,
-        Rule.RADIO: flights.radio,
+        Rule.RADIO: radio.radio,
         Rule.CLOSENESS: flights.closeness,
         Rule.STACKING: flights.stacking,
         Rule.FLIGHT_BAND: flights.flight_band,

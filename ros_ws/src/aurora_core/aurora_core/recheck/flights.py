@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Proofs by where a stated flight can be: sight, radio, separation, conditions, pursuit."""
+"""Proofs by where a stated flight can be: sight, separation, conditions."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
+from aurora_core.recheck.operands import SLOWS, is_split
 from aurora_core.recheck.request import Request, left_open, names_of, sent_to, stated
 from aurora_core.recheck.zones import farthest, read_whole
 
 # What is looked at stands at most this high above the ground.
-_TOP_OF_TARGET_M = 2.0
+TOP_OF_TARGET_M = 2.0
 _AT = ('at', 'near', 'parked_at')
 # From a landmark to the middle of whoever stands where the road to it ends, at most.
 _ROAD_M = 160.0
 
 
-def _heights(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
+def heights(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
     floor, ceiling = request.limit('uav_altitude_min_m'), request.limit('uav_altitude_max_m')
     ranges = [
         left_open(number, request.slack('altitude_m', number), floor, ceiling)
@@ -33,26 +34,26 @@ def _aside(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
     return left_open(number, request.slack('standoff_m', number) if number else 0.0)
 
 
-def _straight(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
-    low, high = _heights(request, mission)
+def straight(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
+    low, high = heights(request, mission)
     near, far = _aside(request, mission)
     if mission.get('target') in names_of(request, 'uavs'):
         # It flies as well, and may be level with the other one or far above it.
         return near, math.sqrt(request.limit('uav_altitude_max_m') ** 2 + far**2)
-    drop = max(0.0, low - _TOP_OF_TARGET_M)
+    drop = max(0.0, low - TOP_OF_TARGET_M)
     return math.sqrt(drop**2 + near**2), math.sqrt(high**2 + far**2)
 
 
-def _is_partial(condition: dict[str, Any]) -> bool:
+def is_partial(condition: dict[str, Any]) -> bool:
     """Return whether a condition is asked of a share, a stretch or one moment only."""
     return any(condition.get(name) is not None for name in ('fraction', 'hold_s', 'by_s'))
 
 
-def _same(proof: Certificate, limit: float) -> Step:
+def same(proof: Certificate, limit: float) -> Step:
     return proof.limit == limit, f'{proof.limit_name} is {limit:g}'
 
 
-def _asked(proof: Certificate, *numbers: Any) -> Step:
+def asked(proof: Certificate, *numbers: Any) -> Step:
     values = [n['value'] for n in numbers if stated(n)]
     return proof.requested in values, f'{proof.requested:g} is stated' if (
         proof.requested is not None
@@ -65,16 +66,49 @@ def sensing(proof: Certificate, request: Request) -> list[Step]:
     reach = float(request.limits['sensing_range_m'][world['weather']])
     reach *= float(request.limits['sensing_factor'][world['time_of_day']])
     if proof.path.startswith('conditions/'):
-        return [_same(proof, reach), *_place_in_sight(proof, request, reach)]
+        return [same(proof, reach), *_place_in_sight(proof, request, reach)]
     mission = request.one(proof.path)
     if mission is None or mission.get('target') is None or mission['mode'] == 'navigate':
         return [(False, f'{proof.path} looks at a target')]
-    near, _ = _straight(request, mission)
+    kept = _kept_off(request, mission)
+    near = max(straight(request, mission)[0], _kept_straight(request, mission, kept))
     return [
-        _same(proof, reach),
-        _asked(proof, mission['altitude_m'], mission.get('standoff_m')),
+        same(proof, reach),
+        asked(
+            proof, mission['altitude_m'], mission.get('standoff_m'), *(c['value'] for c in kept)
+        ),
         (near > reach, f'it is {near:.1f} m away at least, the camera reaches {reach:g} m'),
     ]
+
+
+def _kept_off(request: Request, mission: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return conditions on a UAV's height, or its distance from its target, all the time."""
+    if is_split(request, {mission['uav']}):
+        return []
+    pair = {mission['uav'], mission['target']}
+    flies = mission['target'] in names_of(request, 'uavs')
+    return [
+        c
+        for c in request.all('conditions')
+        if c['op'] in ('>', '>=') and not is_partial(c) and stated(c['value'])
+        if (c['quantity'] in ('distance', 'horizontal_distance') and set(c['of']) == pair)
+        or (c['quantity'] == 'altitude' and list(c['of']) == [mission['uav']] and not flies)
+    ]
+
+
+def _kept_straight(request: Request, mission: dict[str, Any], kept: list[dict[str, Any]]) -> float:
+    """Return the least straight distance that conditions leave to the target of a phase."""
+
+    def most(quantity: str, otherwise: float) -> float:
+        values = [float(c['value']['value']) for c in kept if c['quantity'] == quantity]
+        return max([otherwise, *values])
+
+    up = 0.0
+    if mission['target'] not in names_of(request, 'uavs'):
+        up = max(0.0, most('altitude', heights(request, mission)[0]) - TOP_OF_TARGET_M)
+    aside = most('horizontal_distance', _aside(request, mission)[0])
+    # A distance is measured to the ground, sight to the middle of a body.
+    return max(most('distance', 0.0) - TOP_OF_TARGET_M, math.sqrt(up**2 + aside**2))
 
 
 def _place_in_sight(proof: Certificate, request: Request, reach: float) -> list[Step]:
@@ -90,7 +124,7 @@ def _place_in_sight(proof: Certificate, request: Request, reach: float) -> list[
         away = [_from_landmark(request, m, marks, marks[place]) - aside for m in flown]
     seen = condition['op'] in ('>', '>=', '==') and float(condition['value']['value']) > 0.0
     return [
-        _asked(proof, condition['value']),
+        asked(proof, condition['value']),
         (seen and stated(condition['value']), f'{target} is to be seen'),
         *(read_whole(request, m) for m in flown),
         (min(away) > reach, f'{observer} is {min(away):.1f} m from {target} at least'),
@@ -123,66 +157,6 @@ def _from_landmark(
     return math.dist(centre, seen) - farthest(request, mission)
 
 
-def radio(proof: Certificate, request: Request) -> list[Step]:
-    """The two ends of a link stay out of its range, or the sender is too far while it sends."""
-    parts = proof.path.split('/')
-    link = request.one('/'.join(parts[:2])) if parts[-1] == 'range_m' else None
-    if link is None:
-        return [(False, f'{proof.path} is a range')]
-    ends = {link['sender'], link['receiver']}
-    sends = any(
-        (e.get('action') or {}).get('do') == 'send_message'
-        and e['action']['sender'] == link['sender']
-        and e['action']['receiver'] == link['receiver']
-        for e in request.all('events')
-    )
-    number = link.get('range_m')
-    reach = request.limit('link_range_sight_m') if number is None else float(number['value'])
-    kept, numbers = 0.0, [number]
-    for condition in _keeping_apart(request, ends):
-        kept = max(kept, float(condition['value']['value']))
-        numbers += [condition['value']] if number is None else []
-    common: list[Step] = [
-        _same(proof, reach),
-        _asked(proof, *numbers),
-        (sends, 'a message is to be sent over the link'),
-        (number is None or stated(number), 'the range is stated, or that of the limits'),
-        ((number or {}).get('bound') != 'at_least', 'the range is not "at least"'),
-    ]
-    if kept > reach:
-        return [*common, (True, f'they are to stay {kept:g} m apart, it reaches {reach:g} m')]
-    flown = [m for m in request.all('missions') if m['uav'] == link['sender']]
-    bound = bool(flown) and all(m.get('target') == link['receiver'] for m in flown)
-    near = min((_while_sending(request, m) for m in flown), default=0.0)
-    return [
-        *common,
-        (bound, 'the sender flies at the receiver in every phase'),
-        (near > reach, f'they are {near:.1f} m apart at least, the link reaches {reach:g} m'),
-    ]
-
-
-def _while_sending(request: Request, mission: dict[str, Any]) -> float:
-    """Return how near a UAV is that sends: above the ground, and at its place once it tracks."""
-    if mission['mode'] == 'track':
-        return _straight(request, mission)[0]
-    if mission.get('target') in names_of(request, 'uavs'):
-        return 0.0
-    return max(0.0, _heights(request, mission)[0] - _TOP_OF_TARGET_M)
-
-
-def _keeping_apart(request: Request, ends: set[str]) -> list[dict[str, Any]]:
-    """Return the conditions that keep two away from each other, all the time."""
-    return [
-        c
-        for c in request.all('conditions')
-        if c['quantity'] in ('distance', 'horizontal_distance', 'separation')
-        and c['op'] in ('>', '>=')
-        and set(c['of']) == ends
-        and not _is_partial(c)
-        and stated(c['value'])
-    ]
-
-
 def closeness(proof: Certificate, request: Request) -> list[Step]:
     """A condition asks for two UAVs closer than they may come."""
     parts = proof.path.split('/')
@@ -195,8 +169,8 @@ def closeness(proof: Certificate, request: Request) -> list[Step]:
     # `2 m apart` asks for 2 m and no more.
     upward = condition['quantity'] == 'separation' and condition['op'] == '>=' and exact
     return [
-        _same(proof, least),
-        _asked(proof, condition['value']),
+        same(proof, least),
+        asked(proof, condition['value']),
         (set(condition['of']) <= names_of(request, 'uavs'), 'it is about UAVs'),
         (
             (condition['op'] in ('<', '<=', '==') or upward) and value < least,
@@ -223,8 +197,8 @@ def stacking(proof: Certificate, request: Request) -> list[Step]:
         floor, ceiling = left_open(other['altitude_m'], 0.0)
         gaps.append(math.hypot(max(abs(high - floor), abs(ceiling - low)), away))
     return [
-        _same(proof, least),
-        _asked(proof, upper['altitude_m']),
+        same(proof, least),
+        asked(proof, upper['altitude_m']),
         (fixed, 'its place beside the other is fixed'),
         (
             not any(sent_to(request, uav) for uav in (upper['uav'], upper.get('target'))),
@@ -242,7 +216,7 @@ def flight_band(proof: Certificate, request: Request) -> list[Step]:
     condition = request.one(proof.path)
     if condition is None or condition.get('quantity') is None:
         return [(False, f'{proof.path} is a condition')]
-    free = _is_partial(condition)
+    free = is_partial(condition)
     value, op = float(condition['value']['value']), condition['op']
     excluded = [
         (op in ('<', '<=') and low > value) or (op in ('>', '>=') and high < value)
@@ -252,7 +226,7 @@ def flight_band(proof: Certificate, request: Request) -> list[Step]:
         (not free and stated(condition['value']), 'the condition is for the whole flight'),
         (
             bool(excluded) and all(excluded),
-            f'{condition["quantity"]} {op} {value:g} m is out of reach of every phase',
+            f'{condition["quantity"]} {op} {value:g} is out of reach of every phase and drive',
         ),
     ]
 
@@ -260,15 +234,39 @@ def flight_band(proof: Certificate, request: Request) -> list[Step]:
 def _bands(condition: dict[str, Any], request: Request) -> list[tuple[float, float]]:
     bodies, quantity = set(condition['of']), condition['quantity']
     if quantity == 'altitude':
-        return [_heights(request, m) for m in request.all('missions') if {m['uav']} == bodies]
-    measured = {'distance': _straight, 'horizontal_distance': _aside}.get(quantity)
+        return [heights(request, m) for m in request.all('missions') if {m['uav']} == bodies]
+    if quantity == 'speed':
+        return _speeds(condition, request)
+    measured = {'distance': straight, 'horizontal_distance': _aside}.get(quantity)
     if measured is None:
         return []
-    return [
-        measured(request, m)
+    found = []
+    for mission in (m for m in request.all('missions') if m['uav'] in bodies):
+        if mission['mode'] != 'navigate' and {mission['uav'], mission.get('target')} == bodies:
+            found.append(measured(request, mission))
+        elif quantity == 'distance' and not bodies - {mission['uav']} & names_of(request, 'uavs'):
+            # It is on the ground, wherever it is.
+            lowest = heights(request, mission)[0]
+            found.append((max(0.0, lowest - TOP_OF_TARGET_M), math.inf))
+    return found
+
+
+def _speeds(condition: dict[str, Any], request: Request) -> list[tuple[float, float]]:
+    """Return the stated speeds of a route or a drive, which hold for most of it."""
+    (name,) = condition['of']
+    if is_split(request, {name}):
+        return []
+    numbers = [
+        m['speed_mps']
         for m in request.all('missions')
-        if m['mode'] != 'navigate' and {m['uav'], m.get('target')} == bodies
+        if m['uav'] == name and m['mode'] == 'navigate' and stated(m.get('speed_mps'))
     ]
+    agent = request.one(f'agents/{name}')
+    if agent is not None and condition['op'] in ('<', '<='):
+        behaviors = agent.get('behaviors', ())
+        if not any(b['kind'] in SLOWS for b in behaviors):
+            numbers += [b['speed_mps'] for b in behaviors if stated(b.get('speed_mps'))]
+    return [left_open(n, request.slack('route_speed_mps', n)) for n in numbers]
 
 
 def afar(proof: Certificate, request: Request) -> list[Step]:
@@ -286,10 +284,10 @@ def afar(proof: Certificate, request: Request) -> list[Step]:
         if m['mode'] == 'track' and [m['uav'], m.get('target')] == list(condition['of'])
     ]
     unset = bool(tracked) and not any(stated(m.get('standoff_m')) for m in tracked)
-    always = not _is_partial(condition)
+    always = not is_partial(condition)
     return [
-        _same(proof, most),
-        _asked(proof, condition['value']),
+        same(proof, most),
+        asked(proof, condition['value']),
         (unset, 'one of them tracks the other, from no stated standoff'),
         (always, 'it is asked of the whole time'),
         (

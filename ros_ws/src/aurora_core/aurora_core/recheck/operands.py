@@ -11,7 +11,16 @@ from aurora_core.recheck.finding import Step
 from aurora_core.recheck.request import Request, names_of
 
 _PLACES = ('intersection', 'crosswalk', 'sidewalk', 'roadside', 'main_road')
-_ONE_UAV = ('altitude', 'hover_drift', 'waypoints_visited', 'mission_completed', 'landed')
+# What takes its speed from who drives.
+SLOWS = ('stop', 'brake', 'slow', 'yield', 'wait', 'park')
+_ONE_UAV = (
+    'altitude',
+    'hover_drift',
+    'waypoints_visited',
+    'mission_completed',
+    'landed',
+    'battery',
+)
 
 
 def kinds_fit(proof: Certificate, request: Request) -> list[Step]:

@@ -10,10 +10,8 @@ from typing import Any
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.bounds import is_whole
 from aurora_core.recheck.finding import Step
-from aurora_core.recheck.operands import is_split
+from aurora_core.recheck.operands import SLOWS, is_split
 from aurora_core.recheck.request import Request, left_open, stated
-
-_SLOWS = ('stop', 'brake', 'slow', 'yield', 'wait', 'park')
 
 
 def pursuit(proof: Certificate, request: Request) -> list[Step]:
@@ -53,7 +51,7 @@ def _speeds(request: Request, agent: dict[str, Any]) -> list[tuple[float, float,
     """Return stated speeds, the least that meets each, and the share of the time that it holds."""
     found = []
     behaviors = agent.get('behaviors', ())
-    if not any(b['kind'] in _SLOWS for b in behaviors):
+    if not any(b['kind'] in SLOWS for b in behaviors):
         share = float(request.tolerances['route_speed_share'])
         for number in (b.get('speed_mps') for b in behaviors):
             if stated(number):

@@ -253,6 +253,16 @@ def _condition(request: Request, condition: dict[str, Any]) -> Iterator[Derived]
             last = float(value['value']) + slack if op in _DOWN else math.inf
             yield Derived(Kind.DEADLINE, name, 'start', f'events/{of[0]}', first, last)
         return
+    if quantity == 'battery':
+        own = [m for m in request.all('missions') if [m['uav']] == of]
+        partly = any(condition.get(part) is not None for part in ('fraction', 'hold_s', 'by_s'))
+        if own and stated(value) and op in ('>', '>=') and not partly:
+            home = f'uavs/{of[0]}/landed'
+            if own[-1].get('ends_in_flight'):
+                home = f'missions/{own[-1]["id"]}/over'
+            left = max(0.0, 1.0 - float(value['value'])) * request.limit('uav_endurance_s')
+            yield Derived(Kind.BATTERY, name, f'uavs/{of[0]}/takeoff', home, most_s=left)
+        return
     if quantity == 'altitude':
         if stated(value) and op in ('>', '>=') and len(of) == 1:
             up_s = float(value['value']) / request.limit('uav_climb_max_mps')

@@ -14,6 +14,7 @@ from aurora_core.outcomes.feasibility import BoundKind
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode, Pattern
@@ -69,6 +70,35 @@ def battery_links(basis: Basis) -> Iterator[Link]:
                 kind=BoundKind.BATTERY,
                 of=f'uavs/{uav.id}',
                 words=f'the battery of {uav.id} lasts {most_s:g} s',
+                limits=('uav_endurance_s',),
+            )
+    yield from _charge_links(basis)
+
+
+def _charge_links(basis: Basis) -> Iterator[Link]:
+    """Yield how long a UAV may be in the air that is to keep a share of its battery throughout.
+
+    It is full at take-off and empty after the endurance, linear in between.
+    """
+    for condition in basis.spec.conditions:
+        kept, op = condition.value, condition.op
+        asked = condition.quantity == QuantityName.BATTERY and op in ('>', '>=')
+        partly = (condition.fraction, condition.hold_s, condition.by_s) != (None, None, None)
+        if not asked or partly or not is_stated(kept) or len(condition.of) != 1:
+            continue
+        flown = flown_by(basis, condition.of[0])
+        if flown:
+            of = f'conditions/{condition.id}'
+            most_s = max(0.0, 1.0 - kept.value) * basis.limits.uav_endurance_s
+            yield Link(
+                earlier=f'uavs/{condition.of[0]}/takeoff',
+                later=home_point(flown[-1]),
+                most_s=most_s,
+                kind=BoundKind.BATTERY,
+                of=of,
+                words=f'the battery of {condition.of[0]} is down to {kept.value:g} after '
+                f'{most_s:g} s',
+                stated=((f'{of}/op', op), (f'{of}/value', kept)),
                 limits=('uav_endurance_s',),
             )
 

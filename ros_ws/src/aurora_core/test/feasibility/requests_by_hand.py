@@ -41,19 +41,25 @@ def asked(ident: str, quantity: str, of: list[str], op: str, value: float, unit:
     }
 
 
-def request(conditions: list[Any], missions: int = 1, **more: Any) -> ScenarioSpec:
-    flown = [
-        {
-            'id': f'm{k}',
-            'uav': 'uav1',
-            'mode': 'track',
-            'target': 'car1',
-            'altitude_m': {**number(30.0, 'm'), 'provenance': 'default', 'span': None},
-            'standoff_m': {**number(0.0, 'm'), 'provenance': 'default', 'span': None},
-            'duration_s': {**number(30.0, 's'), 'provenance': 'default', 'span': None},
-        }
-        for k in range(missions)
-    ]
+def request(
+    conditions: list[Any], missions: int | list[dict[str, Any]] = 1, **more: Any
+) -> ScenarioSpec:
+    flown = (
+        missions
+        if isinstance(missions, list)
+        else [
+            {
+                'id': f'm{k}',
+                'uav': 'uav1',
+                'mode': 'track',
+                'target': 'car1',
+                'altitude_m': {**number(30.0, 'm'), 'provenance': 'default', 'span': None},
+                'standoff_m': {**number(0.0, 'm'), 'provenance': 'default', 'span': None},
+                'duration_s': {**number(30.0, 's'), 'provenance': 'default', 'span': None},
+            }
+            for k in range(missions)
+        ]
+    )
     agents = [{'id': 'car1', 'type': 'car'}, {'id': 'bus1', 'type': 'bus'}]
     return ScenarioSpec.model_validate(
         {

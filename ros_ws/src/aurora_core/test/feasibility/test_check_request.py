@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import pytest
-from requests_by_hand import judged, map_of
+from requests_by_hand import asked, judged, map_of
 
 from aurora_core.feasibility.doubts import doubts
 from aurora_core.feasibility.limits import check_limits
@@ -222,3 +222,28 @@ def test_a_half_read_deadline_is_not_said_to_hang_on_the_tolerances() -> None:
 def test_what_an_event_changes_about_a_height_is_counted(prompt: str) -> None:
     """A condition, or the sight, may be meant for the time after the event."""
     assert _judged(prompt).certificates == ()
+
+
+@pytest.mark.parametrize(('lasts_s', 'at_s', 'refused'), [(5, 60, False), (60, 40, True)])
+def test_who_may_report_while_it_lands_is_not_refused(
+    lasts_s: int, at_s: int, refused: bool
+) -> None:
+    """It was, and flown it was verified: 20 m above a parked van the link reaches it."""
+    verdict = _judged(
+        f'A van is parked. A drone hovers 95 m above the van for {lasts_s} seconds and sends a '
+        f'message to the van at {at_s} s over a link with a range of 80 m.'
+    )
+    assert (verdict.result is Feasibility.INFEASIBLE) is refused
+    if not refused:
+        assert any('Only before and after its missions' in note for note in verdict.notes)
+
+
+def test_a_message_that_is_to_be_lost_may_be_out_of_range() -> None:
+    spec = _read(
+        'A drone hovers 110 m above the ego car for 60 seconds and sends a message to the ego at '
+        '40 s over a radio with a range of 80 m.'
+    )
+    assert judged(spec).result is Feasibility.INFEASIBLE
+    lost = asked('c1', 'delivered', ['uav1', 'ego'], '==', 0.0, '1')
+    document = {**spec.model_dump(mode='json'), 'conditions': [lost]}
+    assert judged(ScenarioSpec.model_validate(document)).certificates == ()

@@ -42,6 +42,9 @@ _MARGIN_M = 60.0
 _LEAST_M = 240.0
 # Names keep clear of ways that are told by points so far apart.
 _CLOSE_M = 2.0
+# Names of UAVs that fly so near to each other stand one above the other.
+_SAME_SPOT_M = 20.0
+_LINE_PT = 11.0
 # So much of an agent's route is drawn: the rest is far from the scene.
 _ROUTE_M = 400.0
 _SCORES = LinearSegmentedColormap.from_list('scores', ['#c9b8e8', '#7a3fa0', '#2b0f57'])
@@ -279,6 +282,7 @@ def _agents(ax: Axes, agents: Sequence[GroundedAgent]) -> None:
 
 
 def _flown(ax: Axes, uavs: Sequence[UavPlan], flights: _Flights) -> None:
+    named: list[Point] = []
     for k, uav in enumerate(uavs):
         colour = style.UAV_COLOURS[k % len(style.UAV_COLOURS)]
         way = flights.way(uav)
@@ -293,7 +297,11 @@ def _flown(ax: Axes, uavs: Sequence[UavPlan], flights: _Flights) -> None:
                 *spot, 'o', markerfacecolor='none', markeredgecolor=colour, markeredgewidth=2.2,
                 markersize=13.0, zorder=7.3,
             )  # fmt: skip
-            _label(ax, spot, f'{uav.id} {"/".join(heights)} m', colour, 9.0)
+            # Who flies above another one is named above it.
+            lines = sum(math.dist(spot, other) < _SAME_SPOT_M for other in named)
+            named.append(spot)
+            above_pt = 9.0 + _LINE_PT * lines
+            _label(ax, spot, f'{uav.id} {"/".join(heights)} m', colour, above_pt)
 
 
 def _sight(ax: Axes, uavs: Sequence[UavPlan], places: dict[str, Point], flights: _Flights) -> None:

@@ -53,6 +53,20 @@ def test_each_mission_has_its_height_and_each_place_its_name_once(
     assert heading.endswith('…”')
 
 
+def test_uavs_above_each_other_are_named_above_each_other(
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: _Ground,
+    map_of: Callable[[str], MapModel],
+) -> None:
+    asked = 'Two drones follow the ego car, one at 30 m and one at 50 m altitude.'
+    figure, _ = _drawn(asked, read_prompt, ground, map_of('downtown'))
+    figure.canvas.draw()
+    names = [t for t in figure.axes[0].texts if t.get_text().startswith('uav')]
+    assert {t.get_text() for t in names} == {'uav1 30 m', 'uav2 50 m'}
+    one, other = (t.get_window_extent() for t in names)
+    assert not one.overlaps(other)
+
+
 def test_names_of_streets_keep_clear_of_long_straight_ways() -> None:
     points = list(_between([(0.0, 0.0), (0.0, 100.0), (30.0, 100.0)]))
     gaps = [abs(a[0] - b[0]) + abs(a[1] - b[1]) for a, b in pairwise(points)]
