@@ -26,7 +26,7 @@ from aurora_core.spec.scenario import (
 from aurora_core.spec.vocabulary import MissionMode, Relation
 
 # Room between a default and a bound, for wind and for the lag behind a moving target (m).
-_ALTITUDE_ROOM_M = 1.5
+_ALTITUDE_ROOM_M = 2.5
 _STANDOFF_ROOM_M = 8.0
 # And between two on the ground.
 _GAP_ROOM_M = 2.0
