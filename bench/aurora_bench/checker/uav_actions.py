@@ -130,8 +130,7 @@ def change_mission(
     found = segments(case.scene, uav)
     # Who is asked for no other mission waits on the ground for this one.
     others = any(
-        r['kind'] == 'mission' and uav in case.bodies(r.get('uav'))
-        for r in case.annotation.flat()
+        r['kind'] == 'mission' and uav in case.bodies(r.get('uav')) for r in case.annotation.flat()
     )
     fitting = [
         s

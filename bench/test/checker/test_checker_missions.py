@@ -553,3 +553,14 @@ def test_an_event_ends_a_mission_before_its_stated_time(
     }
     assert stage.says({**HOVER, 'duration_s': 80}, land) == outcome
     assert stage.says({**HOVER, 'duration_s': 20}, land) == 'does_not'
+
+
+@pytest.mark.parametrize(('mine', 'outcome'), [((), 'holds'), (('drone',), 'does_not')])
+def test_who_flies_nothing_else_waits_for_its_event_on_the_ground(
+    stage: Any, mine: tuple[str, ...], outcome: str
+) -> None:
+    stage.uav('drone', lambda t: (210, 30, 50), ends=(50.0,))
+    change = {'do': 'change_mission', 'uav': 'drone', 'mode': 'hover', 'target': 'City Hall'}
+    event = {'kind': 'event', 'ref': 'e1', 'trigger': {'on': 'time', 'at_s': 5}, 'action': change}
+    others = [{**HOVER, 'uav': uav} for uav in mine]
+    assert stage.says(event, *others) == outcome

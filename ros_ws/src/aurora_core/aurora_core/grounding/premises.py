@@ -21,6 +21,7 @@ from aurora_core.grounding.places import ROADS, MapPlaces, has_point
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.events import least_due_s, sets_off
+from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import (
     DistanceTrigger,
     GroundAgent,
@@ -28,7 +29,7 @@ from aurora_core.spec.scenario import (
     SendMessage,
     UavMission,
 )
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
 
 Pose = tuple[float, float, float, float]
 
@@ -41,6 +42,8 @@ _STEP_M = 4.0
 _APART_WAY_M, _APART_STEP_M = 600.0, 10.0
 # So fast somebody may drive until a stated time (m/s); who does one of these does not.
 _PACES_MPS = (6.0, 9.0, 12.0)
+# Who is told something later than that is met half way, no farther than so much ahead (s, m).
+_SOON_S, _MOST_AHEAD_M = 20.0, 250.0
 _STAYS = (BehaviorKind.WAIT, BehaviorKind.PARK, BehaviorKind.STOP)
 # Of the range of a link so much is counted on; beyond that of a hidden one it may be hidden.
 _RANGE_SHARE = 0.9
@@ -115,9 +118,28 @@ def anchor_arc_m(spec: ScenarioSpec, site: Site, range_m: float) -> float:
 
 def _route_arc_m(spec: ScenarioSpec, mission: UavMission, site: Site, range_m: float) -> float:
     if not site.seated or not is_kept_away(spec, mission):
-        return site.origin_arc_m
+        way_m = site.origin_path.length_m - site.origin_arc_m
+        return site.origin_arc_m + min(way_m, _talks_ahead_m(spec, mission, site))
     away_m = site.origin_arc_m + kept_away_m(spec, mission, range_m)
     return min(away_m, site.origin_path.length_m)
+
+
+def _talks_ahead_m(spec: ScenarioSpec, mission: UavMission, site: Site) -> float:
+    """Return how far ahead a UAV hovers at no place that later talks with who drives on (m)."""
+    if mission.mode is not MissionMode.HOVER or mission.target is not None:
+        return 0.0
+    due_s = [
+        at_s
+        for sender, receiver, at_s in _messages(spec)
+        if mission.uav in (sender, receiver)
+        and isinstance(
+            seat := site.seat(receiver if sender == mission.uav else sender), SeatedAgent
+        )
+        and not stands(seat.agent)
+        and sets_off(spec.events, seat.agent.id) is None
+    ]
+    last_s = max(due_s, default=0.0)
+    return min(_MOST_AHEAD_M, last_s * _PACES_MPS[-1] / 2.0) if last_s > _SOON_S else 0.0
 
 
 def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> float:
