@@ -221,10 +221,17 @@ def _ready_s(
 
 
 def _on_the_way_up(case: Case, requirement: Requirement, action: Mapping[str, Any]) -> bool:
-    """Tell whether a UAV is to report an altitude of its own, which it may reach in its ascent."""
+    """Tell whether a UAV has to see nothing for what it sends, which it may do in its ascent.
+
+    It reports an altitude of its own, sends at a stated time or so long after something, or hands
+    on what it was told.
+    """
     trigger = requirement.get('trigger') or {}
-    own = set(case.bodies(trigger.get('uav'))) & set(case.bodies(action.get('sender')))
-    return trigger.get('on') == 'altitude_reached' and bool(own)
+    if trigger.get('at_s') is not None or trigger.get('after_s') is not None:
+        return True
+    own = trigger.get('uav') if trigger.get('on') == 'altitude_reached' else None
+    own = trigger.get('by') if trigger.get('on') == 'message_received' else own
+    return bool(set(case.bodies(own)) & set(case.bodies(action.get('sender'))))
 
 
 def _is_flown(requirement: Requirement, case: Case, uav: str) -> bool:

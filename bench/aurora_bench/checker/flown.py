@@ -173,8 +173,9 @@ def _climbs(case: Case, requirement: Requirement, uav: str, segment: Segment) ->
     """Yield when annotated climbs begin while a mission is flown.
 
     What somebody does that triggers one before that does so once the UAV has come to the altitude
-    of the mission; a clock does not wait.
+    of the mission; a clock does not wait. One in an earlier mission is over with that.
     """
+    first = segments(case.scene, uav)[0].number
     for event in case.annotation.flat():
         action = event.get('action') or {}
         if event['kind'] != 'event' or action.get('do') != 'ascend':
@@ -183,6 +184,8 @@ def _climbs(case: Case, requirement: Requirement, uav: str, segment: Segment) ->
             continue
         start = happened(case, event).start_s
         if start is None or case.scene.tick(start) >= segment.end:
+            continue
+        if case.scene.tick(start) <= segment.start and segment.number > first:
             continue
         waits = (event.get('trigger') or {}).get('on') in STATES
         if case.scene.tick(start) > segment.start or not waits:

@@ -128,10 +128,14 @@ def change_mission(
 ) -> Acted:
     """Return whether another mission began in time, and is the annotated one."""
     found = segments(case.scene, uav)
+    # Who is asked for no other mission waits on the ground for this one.
+    others = any(
+        r['kind'] == 'mission' and uav in case.bodies(r.get('uav')) for r in case.annotation.flat()
+    )
     fitting = [
         s
         for s in found
-        if s.number > 0 and _inside(case, window, float(case.scene.times[s.start]))
+        if s.number >= int(others) and _inside(case, window, float(case.scene.times[s.start]))
     ]
     if not fitting:
         times = [round(float(case.scene.times[s.start]), 2) for s in found]

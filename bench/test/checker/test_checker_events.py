@@ -276,6 +276,14 @@ def test_a_landmark_is_as_far_as_it_stands(make_stage: Any) -> None:
         assert stage.says(asked) == outcome
 
 
+@pytest.mark.parametrize(('sent', 'outcome'), [(6.2, 'holds'), (10.2, 'does_not')])
+def test_a_message_at_a_stated_time_waits_for_no_ascent(
+    stage: Any, sent: float, outcome: str
+) -> None:
+    _talk(stage, sent, latency=0.1)  # it is up at 10 s
+    assert stage.says(_event({'on': 'time', 'at_s': 6}, SEND)) == outcome
+
+
 def test_a_trigger_that_never_fires_does_not_hold(stage: Any) -> None:
     stage.drive('car1', 'car', 4.0)
     stage.ground('bus1', 'bus', -100.0, 20.0)

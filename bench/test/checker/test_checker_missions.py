@@ -462,6 +462,20 @@ def test_a_mission_is_judged_until_an_annotated_climb(stage: Any) -> None:
     assert stage.says(HOVER, _climb(30)) == 'holds'
 
 
+def test_a_climb_in_one_mission_says_nothing_of_the_next_one(stage: Any) -> None:
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        return 210, 30, np.interp(t, [20, 24, 31, 36], [30, 50, 50, 40])
+
+    stage.uav('drone', motion, ends=(30.0, 60.0))
+    low = {**HOVER, 'ref': 'low', 'altitude_m': 30, 'duration_s': 20}
+    then = {**HOVER, 'ref': 'then', 'altitude_m': 40, 'duration_s': 25}
+    climb = {'do': 'ascend', 'uav': 'drone', 'altitude_m': 50}
+    for on in ({'on': 'time', 'at_s': 20}, {'on': 'altitude_reached', 'uav': 'drone'}):
+        event = {**_climb(20), 'trigger': {'value_m': 30, **on}, 'action': climb}
+        answer = stage.answer(then, low, event)
+        assert answer.outcome.value == 'holds', answer.why
+
+
 def test_a_climb_does_not_end_a_hover_of_any_height(stage: Any) -> None:
     stage.uav('drone', lambda t: (210, 30, np.interp(t, [20, 35], [30, 70])))
     free = {k: v for k, v in HOVER.items() if k != 'altitude_m'}
@@ -539,3 +553,14 @@ def test_an_event_ends_a_mission_before_its_stated_time(
     }
     assert stage.says({**HOVER, 'duration_s': 80}, land) == outcome
     assert stage.says({**HOVER, 'duration_s': 20}, land) == 'does_not'
+
+
+@pytest.mark.parametrize(('mine', 'outcome'), [((), 'holds'), (('drone',), 'does_not')])
+def test_who_flies_nothing_else_waits_for_its_event_on_the_ground(
+    stage: Any, mine: tuple[str, ...], outcome: str
+) -> None:
+    stage.uav('drone', lambda t: (210, 30, 50), ends=(50.0,))
+    change = {'do': 'change_mission', 'uav': 'drone', 'mode': 'hover', 'target': 'City Hall'}
+    event = {'kind': 'event', 'ref': 'e1', 'trigger': {'on': 'time', 'at_s': 5}, 'action': change}
+    others = [{**HOVER, 'uav': uav} for uav in mine]
+    assert stage.says(event, *others) == outcome

@@ -25,7 +25,7 @@ from aurora_core.quantities.actions import (
     rest_s,
     takes_time,
 )
-from aurora_core.spec.events import actor_of, reports_own_altitude
+from aurora_core.spec.events import actor_of, sends_on_the_way_up
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import (
@@ -355,13 +355,14 @@ class EventRunner:
     ) -> bool:
         """A UAV reports only what it sees: after its ascent, when tracking after capture.
 
-        Once it has landed it reports nothing. Its own altitude it reports when it is reached.
+        Once it has landed it reports nothing. What it needs to see nothing for it sends when that
+        is due.
         """
         if not isinstance(event.action, SendMessage):
             return True
         sender = event.action.sender
         machine = next((m for m in machines if m.plan.id == sender), None)
-        if machine is None or reports_own_altitude(event):
+        if machine is None or sends_on_the_way_up(event):
             return True
         if machine.ascended_tick is None or machine.landed:
             return False

@@ -20,7 +20,7 @@ from aurora_core.feasibility.operands import AT_LEAST, whole
 from aurora_core.feasibility.zones import is_redirected
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
-from aurora_core.spec.events import reports_own_altitude
+from aurora_core.spec.events import sends_on_the_way_up
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
@@ -98,7 +98,7 @@ class Flight:
 
     def nearest_m(self) -> float:
         """Return how near the two are at least while the message may pass, metres."""
-        if not self.missions or reports_own_altitude(self.event):
+        if not self.missions or sends_on_the_way_up(self.event):
             return 0.0
         geometry = Geometry(self.spec, self.limits, self.tolerances)
         flying = {uav.id for uav in self.spec.uavs}

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.awaited import bound_to_places, near_its_partner
 from aurora_core.grounding.distances import ALONG, DETACHED_M, Distances
+from aurora_core.grounding.kept_apart import ties_apart
 from aurora_core.grounding.nearby import BY_PERSONS, ON_SIDEWALKS, begins_near, reported
 from aurora_core.grounding.one_place import common_places, is_before_place
 from aurora_core.grounding.pace import (
@@ -40,7 +41,7 @@ from aurora_core.grounding.ties import (
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import EXACT, Tolerance
 from aurora_core.spec.events import sets_off
-from aurora_core.spec.own_events import let_cross
+from aurora_core.spec.own_events import let_cross, told_to_change_lane
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.parking import parks, stands
 from aurora_core.spec.scenario import (
@@ -109,6 +110,7 @@ class SceneSplit:
         unsupported: Placements that grounding cannot realise yet, in words.
         before: The member that is placed before such a place, None when nobody is.
         groups: Vehicles at places of their own, on roads of their own.
+        groups_before: Of each group the member that is placed before such a place, or None.
         anywhere: Who crosses and names no crosswalk goes straight over the street.
     """
 
@@ -119,6 +121,7 @@ class SceneSplit:
     oncoming: tuple[GroundAgent, ...] = ()
     before: BeforePlace | None = None
     groups: tuple[tuple[ConvoyMember, ...], ...] = ()
+    groups_before: tuple[BeforePlace | None, ...] = ()
     anywhere: bool = False
 
 
@@ -165,6 +168,7 @@ def split_scene(
         parked=frozenset(parked),
         standing=frozenset(a.id for a in vehicles if a.id in parked or stands(a)),
         lengths_m={a.id: types[a.type.value].length_m for a in vehicles} if types else {},
+        changing=told_to_change_lane(spec),
     )
     passing = passing_pairs(spec)
     ties = [
@@ -176,11 +180,11 @@ def split_scene(
         # "From the left" to a place is another street, not the lane beside.
         ties = [t for t in ties if not _comes_from_a_side(spec, by_id[t.agent], t)]
     ties += [] if apart else common_places(vehicles, distances)
-    ties = agreed(ties + _past_persons(spec, by_id, ties, speeds))
+    ties = agreed(ties + ties_apart(spec, by_id) + _past_persons(spec, by_id, ties, speeds))
     ties = queued(without_implied(ties), {a.id: {b.kind for b in a.behaviors} for a in vehicles})
     ties = spread(ties, {a.id: a.type for a in vehicles}, _on_either_side(vehicles))
     origin = _origin(spec, vehicles, ties)
-    ties = ties if origin is None else with_room(origin, ties)
+    ties = ties if origin is None else with_room(origin, ties, distances.needed_m)
     if origin is None:
         _, others = _before_place(vehicles, {}, distances)
         unsupported += [f'{i}: {BEFORE}' for i in others]
@@ -241,11 +245,15 @@ def split_scene(
         f'{a.id}: places that contradict each other' for a in vehicles if a.id in broken
     ]
     before, others = _before_place(vehicles, offsets, distances)
-    unsupported += [f'{i}: {BEFORE}' for i in others]
+    own = [{m.agent.id: (m.offset_m, m.lane_shift) for m in members} for members in groups]
+    befores = [_before_place(vehicles, group, distances) for group in own]
+    placed = {i for (_, left), group in zip(befores, own, strict=True) for i in {*group} - {*left}}
+    unsupported += [f'{i}: {BEFORE}' for i in others if i not in placed]
     convoy = tuple(member(i, offset, shift) for i, (offset, shift) in offsets.items())
     free = tuple(a for a in vehicles if a.id not in places)
     return SceneSplit(
         groups=tuple(groups),
+        groups_before=tuple(held for held, _ in befores),
         convoy=convoy,
         free=free,
         persons=persons,
@@ -348,7 +356,8 @@ def can_be_placed(agent: str, placement: Placement, spec: ScenarioSpec) -> bool:
     if _is_at_place(placement):
         return True
     if is_before_place(placement):
-        return f'{agent}: {BEFORE}' not in split_scene(spec).unsupported
+        splits = (split_scene(spec, apart=apart) for apart in (False, True))
+        return any(f'{agent}: {BEFORE}' not in split.unsupported for split in splits)
     vehicles = {a.id for a in spec.agents if a.type not in ON_SIDEWALKS}
     known = placement.relation in ALONG or placement.relation is Relation.ONCOMING
     if placement.of in {a.id for a in spec.agents} - vehicles:
@@ -451,9 +460,9 @@ def _placed(
     # "In the same lane, 30 m behind it" says the lane once and the place once.
     exact = [p for p in along if p.relation is not Relation.SAME_LANE] or along[:1]
     if not exact:
-        # Lanes are told, and not how far along them: those who are to meet start apart.
+        # Lanes are told, and not how far along them: who meets, or changes lane, starts apart.
         lanes = all(p.relation is Relation.ADJACENT_LANE for p in placements)
-        apart_m = distances.before_meeting_m(agent, other) if lanes else 0.0
+        apart_m = distances.lane_apart_m(agent, other) if lanes else 0.0
         return [Tie(agent, other, apart_m, shift)]
     return [
         Tie(

@@ -30,6 +30,9 @@ ALONG: dict[Relation, tuple[int, int]] = {
 # Gap of an agent that follows without a stated placement (contract default for vehicles).
 DEFAULT_GAP_M = 20.0
 
+# Who has somebody so far away in the next lane, bumper to bumper, can change to it (m).
+_CLEAR_M = 25.0
+
 # Gap in front of a group of vehicles that nothing relates to those before it.
 DETACHED_M = 40.0
 
@@ -58,6 +61,7 @@ class Distances:
         parked: Ids of those who stand at the kerb.
         standing: Ids of those who stand all along, wherever.
         lengths_m: Of the vehicles; 0 of whom it does not know.
+        changing: Ids of those who are to change lane.
     """
 
     tolerance: Tolerance
@@ -70,6 +74,7 @@ class Distances:
     parked: frozenset[str]
     standing: frozenset[str]
     lengths_m: Mapping[str, float]
+    changing: frozenset[str] = frozenset()
 
     def lanes_between(self, agent: str, other: str, placement: Placement) -> int:
         """Return how many lanes an agent is to the left of another one by a placement."""
@@ -130,6 +135,16 @@ class Distances:
         waits = met.actor in self.standing and met.other not in self.standing
         comes = met.other if waits else met.actor
         return self.between(agent, other, None) * (-1.0 if agent == comes else 1.0)
+
+    def lane_apart_m(self, agent: str, other: str) -> float:
+        """Return how far ahead of another one an agent starts in the lane next to it (m).
+
+        Who is to change lane needs that lane free: then one of them is clear ahead.
+        """
+        meeting_m = self.before_meeting_m(agent, other)
+        if meeting_m or self.changing.isdisjoint((agent, other)):
+            return meeting_m
+        return self.needed_m(agent, other) + _CLEAR_M
 
     def between(self, agent: str, other: str | None, stated: Parameter | None) -> float:
         """Return a distance, metres; a free one leaves room for an encounter."""

@@ -189,7 +189,7 @@ class FlightPlanner:
             return Rejected(reason='target_place')
         if mission.start is not None:
             here = self._places.itself(mission.start, site.origin()[:2])
-            return self._routes.between(mission, here, centre[:2])
+            return self._routes.between(mission, here, centre[:2], others)
         if mission.mode is MissionMode.NAVIGATE:
             beside = self._air.is_inside(*centre[:2])
             return self._routes.plan(mission, centre, others, beside=beside)

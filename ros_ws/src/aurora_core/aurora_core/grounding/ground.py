@@ -45,7 +45,13 @@ from aurora_core.grounding.pace import (
 from aurora_core.grounding.persons import PersonPlacer
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
-from aurora_core.grounding.premises import anchor_arc_m, comes_about, heard, starts_out_of_reach
+from aurora_core.grounding.premises import (
+    anchor_arc_m,
+    comes_about,
+    heard,
+    starts_out_of_reach,
+    stays_apart,
+)
 from aurora_core.grounding.radio import link_score
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.shown_speed import LOOKED_S, all_show, room_for, shows_before
@@ -210,6 +216,7 @@ class Grounder:
             self._settings.grounding,
             spec,
             split.groups if ranked else (),
+            split.groups_before if ranked else (),
             run_m,
             self._spawns,
         )
@@ -334,6 +341,7 @@ class Grounder:
             if outruns(spec, limit_mps, grounding.speeds):
                 road *= _ASTRAY
             road *= max(_NEVER, heard(spec, site, places, self._limits))
+            road *= max(_NEVER, stays_apart(spec, site))
             if not starts_out_of_reach(spec, site, places, range_m):
                 road *= _ASTRAY
             if stated > 0.0:

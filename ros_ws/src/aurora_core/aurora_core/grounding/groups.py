@@ -14,7 +14,9 @@ from aurora_core.grounding.convoy import SIDES, ConvoyMember
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.lane_changers import needs_lane
 from aurora_core.grounding.pace import fastest_stated_mps
+from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.sites import SeatedAgent, Site, sites
+from aurora_core.grounding.ties import BeforePlace
 from aurora_core.grounding.ways_round import Point2
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
@@ -22,6 +24,9 @@ from aurora_core.knowledge.map_records import SpawnTable
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import Relation
+
+# Who stands before a place has its middle so near on its way (m).
+_THERE_M = 10.0
 
 # Vehicles of two groups start at least so far from each other (m).
 _APART_M = 15.0
@@ -40,6 +45,7 @@ class GroupPlacer:
         settings: Of the search.
         spec: The request.
         groups: The groups.
+        befores: Of each the member that stands before an intersection or a crosswalk, or None.
         run_m: Length of their routes.
         spawns: What is beside each lane, and where vehicle types were measured to stand.
     """
@@ -52,6 +58,7 @@ class GroupPlacer:
         settings: GroundingSettings,
         spec: ScenarioSpec,
         groups: tuple[tuple[ConvoyMember, ...], ...],
+        befores: tuple[BeforePlace | None, ...],
         run_m: float,
         spawns: SpawnTable,
     ) -> None:
@@ -60,6 +67,7 @@ class GroupPlacer:
 
         def found(
             group: tuple[ConvoyMember, ...],
+            before: BeforePlace | None,
             through: tuple[frozenset[str], ...],
             least_mps: float,
         ) -> list[Site]:
@@ -71,6 +79,7 @@ class GroupPlacer:
                     settings,
                     run_m,
                     goals.spacing_m(spec, settings.anchor_spacing_m),
+                    before,
                     least_limit_mps=least_mps,
                     spawns=spawns,
                     several_lanes=any(needs_lane(spec, m.agent) for m in group),
@@ -78,17 +87,23 @@ class GroupPlacer:
                 )
             )
 
-        def tiers(group: tuple[ConvoyMember, ...]) -> Iterator[_Candidates]:
+        def tiers(
+            group: tuple[ConvoyMember, ...], before: BeforePlace | None
+        ) -> Iterator[_Candidates]:
             stated_mps = fastest_stated_mps(spec, (m.agent for m in group), settings.speeds)
             way = goals.edges_on_the_way(spec, [m.agent for m in group])
             # Where no street that allows a stated speed leads there, one drives faster than that.
             for least_mps in dict.fromkeys((stated_mps, 0.0)):
-                yield _Candidates(found(group, (), least_mps), spec, goals)
+                yield _Candidates(found(group, before, (), least_mps), spec, goals)
                 # Where no street leads straight on to a place, others do by turns.
                 if way:
-                    yield _Candidates(found(group, way, least_mps), spec, goals, wide=True)
+                    yield _Candidates(found(group, before, way, least_mps), spec, goals, wide=True)
 
-        self._tiers = [_Kept(tiers(group)) for group in groups]
+        self._places = MapPlaces(map_model)
+        self._tiers = [
+            (_Kept(tiers(group, before)), before)
+            for group, before in zip(groups, befores, strict=True)
+        ]
 
     def seated(self, site: Site) -> Site | str:
         """Return a site with the further groups at their places, or what it lacks.
@@ -96,10 +111,10 @@ class GroupPlacer:
         Args:
             site: Where the convoy stands.
         """
-        for tiers in self._tiers:
+        for tiers, before in self._tiers:
             fitting = itertools.chain(
-                (one for tier in tiers for one in self._fit(tier, site, leading=True)),
-                (one for tier in tiers for one in self._fit(tier, site)),
+                (one for tier in tiers for one in self._fit(tier, before, site, leading=True)),
+                (one for tier in tiers for one in self._fit(tier, before, site)),
             )
             found = next(fitting, None)
             if found is None:
@@ -108,17 +123,32 @@ class GroupPlacer:
         return site
 
     def _fit(
-        self, candidates: _Candidates, site: Site, *, leading: bool = False
+        self,
+        candidates: _Candidates,
+        before: BeforePlace | None,
+        site: Site,
+        *,
+        leading: bool = False,
     ) -> Iterator[tuple[SeatedAgent, ...]]:
         """Yield the places of a group beside a site: `leading` to where an event waits for it."""
         anchor, wide = site.origin()[:2], candidates.wide
         for one in candidates.beside(anchor):
             if (
                 _apart(one.seated, site)
+                and self._is_before_its_place(one, before, anchor)
                 and all(_on_its_side(seat, site) for seat in one.seated)
                 and (not leading or self._goals.leads(self._spec, one, anchor, wide=wide))
             ):
                 yield one.seated
+
+    def _is_before_its_place(self, one: Site, before: BeforePlace | None, anchor: Point2) -> bool:
+        """Tell whether a member stands before the very place that the scene is at."""
+        seat = None if before is None else one.seat(before.agent)
+        if before is None or seat is None:
+            return True
+        x, y, _, _ = seat.path.position_at(seat.arc_m + before.distance_m)
+        to_x, to_y = self._places.point(before.place, anchor)
+        return norm2(x - to_x, y - to_y) <= _THERE_M
 
 
 class _Kept:

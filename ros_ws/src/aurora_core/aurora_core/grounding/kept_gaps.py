@@ -15,6 +15,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from aurora_core.grounding.kept_apart import kept_apart
 from aurora_core.grounding.sites import SeatedAgent
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.spec.parameter import Bound
@@ -79,6 +80,10 @@ def kept_gaps(
                     placement.distance_m.bound is Bound.EXACTLY
                 )
                 found.append(replace(_kept_gap(*pair, types), exact=exact))
+    for kept in kept_apart(spec, seats):
+        back, front = seats[kept.behind], seats[kept.ahead]
+        if front.arc_m - back.arc_m >= kept.least_m:
+            found.append(_kept_gap(back, front, types))
     for agent in spec.agents:
         for behavior in agent.behaviors:
             own, other = seats.get(agent.id), seats.get(behavior.target or '')

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from math import ceil, cos, pi, sin
 
-from aurora_core.quantities.waypoints import ORBIT_STEP_DEG
+from aurora_core.quantities.waypoints import ORBIT_STEP_DEG, pattern_centre
 from aurora_core.spec.vocabulary import Pattern
 
 Point2 = tuple[float, float]
@@ -67,6 +67,12 @@ def place_pattern(
     """Turn a pattern so that +x points along `heading` (unit vector) and move it to `centre`."""
     hx, hy = heading
     return tuple((centre[0] + x * hx - y * hy, centre[1] + x * hy + y * hx) for x, y in points)
+
+
+def centred(points: tuple[Point2, ...], centre: Point2) -> tuple[Point2, ...]:
+    """Return points moved so that the rectangle (map axes) that holds them is about a centre."""
+    x, y = pattern_centre([(*point, 0.0) for point in points])
+    return tuple((px + centre[0] - x, py + centre[1] - y) for px, py in points)
 
 
 def begun_at(points: tuple[Point2, ...], share: float) -> tuple[Point2, ...]:

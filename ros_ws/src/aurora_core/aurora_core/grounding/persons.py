@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from math import inf
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at, bound_to_places
@@ -27,7 +26,7 @@ from aurora_core.grounding.parked import parked_boxes, walks_into
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import person_release
 from aurora_core.grounding.routes import route_finder
-from aurora_core.grounding.sidewalk_spots import Spot, at_distance, nearest_spot
+from aurora_core.grounding.sidewalk_spots import Spot, at_distance, nearest_spot, off_m
 from aurora_core.grounding.sites import (
     ANY_CLASS,
     SeatedAgent,
@@ -309,8 +308,8 @@ class PersonPlacer:
             aside = placement.relation in SIDES and isinstance(seat, SeatedAgent)
             if told and stated is not None and (aside or placement.relation is Relation.NEAR):
                 aimed_m = max(0.0, stated.inside(self._style.inside_bound_m))
-                off_m = _OFF_M if aside else inf
-                return self._so_near(seat, aimed_m, off_m, left=left) or 'sidewalk'
+                most_m = _OFF_M if aside else off_m(stated, self._tolerances)
+                return self._so_near(seat, aimed_m, most_m, left=left) or 'sidewalk'
             sign = ALONG[placement.relation]
             away_m = sign * (stated.value if told and stated else self._near_m(seat, stated))
             if sign > 0.0 and not told and isinstance(seat, SeatedAgent):

@@ -8,14 +8,20 @@ and farther than that.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from math import inf
+
 import numpy as np
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at, is_kept_away, kept_away_m
+from aurora_core.grounding.kept_apart import kept_apart
+from aurora_core.grounding.nearby import ON_SIDEWALKS
 from aurora_core.grounding.places import ROADS, MapPlaces, has_point
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.events import least_due_s, sets_off
+from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import (
     DistanceTrigger,
     GroundAgent,
@@ -23,7 +29,7 @@ from aurora_core.spec.scenario import (
     SendMessage,
     UavMission,
 )
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
 
 Pose = tuple[float, float, float, float]
 
@@ -32,8 +38,12 @@ _APART_M = 3.0
 # A vehicle gets to a person on the next stretch of its way: so long, in such steps (m).
 _WAY_M = 300.0
 _STEP_M = 4.0
+# So much of the way of two who are to stay apart is looked at, in such steps (m).
+_APART_WAY_M, _APART_STEP_M = 600.0, 10.0
 # So fast somebody may drive until a stated time (m/s); who does one of these does not.
-_DRIVES_MPS = 8.0
+_PACES_MPS = (6.0, 9.0, 12.0)
+# Who is told something later than that is met half way, no farther than so much ahead (s, m).
+_SOON_S, _MOST_AHEAD_M = 20.0, 250.0
 _STAYS = (BehaviorKind.WAIT, BehaviorKind.PARK, BehaviorKind.STOP)
 # Of the range of a link so much is counted on; beyond that of a hidden one it may be hidden.
 _RANGE_SHARE = 0.9
@@ -108,15 +118,35 @@ def anchor_arc_m(spec: ScenarioSpec, site: Site, range_m: float) -> float:
 
 def _route_arc_m(spec: ScenarioSpec, mission: UavMission, site: Site, range_m: float) -> float:
     if not site.seated or not is_kept_away(spec, mission):
-        return site.origin_arc_m
+        way_m = site.origin_path.length_m - site.origin_arc_m
+        return site.origin_arc_m + min(way_m, _talks_ahead_m(spec, mission, site))
     away_m = site.origin_arc_m + kept_away_m(spec, mission, range_m)
     return min(away_m, site.origin_path.length_m)
 
 
-def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> float:
-    """Return how well who is told something from a place stands to it, in [0, 1].
+def _talks_ahead_m(spec: ScenarioSpec, mission: UavMission, site: Site) -> float:
+    """Return how far ahead a UAV hovers at no place that later talks with who drives on (m)."""
+    if mission.mode is not MissionMode.HOVER or mission.target is not None:
+        return 0.0
+    due_s = [
+        at_s
+        for sender, receiver, at_s in _messages(spec)
+        if mission.uav in (sender, receiver)
+        and isinstance(
+            seat := site.seat(receiver if sender == mission.uav else sender), SeatedAgent
+        )
+        and not stands(seat.agent)
+        and sets_off(spec.events, seat.agent.id) is None
+    ]
+    last_s = max(due_s, default=0.0)
+    return min(_MOST_AHEAD_M, last_s * _PACES_MPS[-1] / 2.0) if last_s > _SOON_S else 0.0
 
-    That counts at t = 0 and, of who is told at a stated time, where it may have come to by then.
+
+def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> float:
+    """Return how well who talks by radio with somebody at a place stands to it, in [0, 1].
+
+    That counts at t = 0 or, of who is told at a stated time, where it may have come to by then.
+    Persons, who are not placed yet, will be near the vehicles.
 
     Args:
         spec: The request.
@@ -124,34 +154,63 @@ def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> 
         places: Of the map.
         limits: With the ranges of radio links.
     """
-    share = 1.0
-    for event in spec.events:
-        action = event.action
-        if not isinstance(action, SendMessage):
+    share, origin = 1.0, site.origin()[:2]
+    ranges = {(k.sender, k.receiver): k.range_m for k in spec.links}
+    for sender, receiver, due_s in _messages(spec):
+        stated = ranges.get((sender, receiver))
+        reach_m = inf if stated is None else stated.value
+        # Whoever of the two stays at a place: it is as far from one to the other and back.
+        ends = (sender, receiver) if _place_of(spec, sender) else (receiver, sender)
+        place = _place_of(spec, ends[0])
+        if place is None:
             continue
-        told, sender = site.seat(action.receiver), _place_of(spec, action.sender)
-        if told is None or sender is None:
-            continue
-        place, height_m = sender
-        point_x, point_y = places.itself(place, site.origin()[:2])
-        goes_m = _DRIVES_MPS * least_due_s(spec.events, event.id)
-        for way_m in {0.0, goes_m if _drives_from_start(spec, told.agent) else 0.0}:
-            arc_m = min(told.arc_m + way_m, told.path.length_m)
-            x, y, *_ = told.path.position_at(arc_m)
-            away_m = norm2(norm2(x - point_x, y - point_y), height_m)
-            if away_m > _RANGE_SHARE * limits.link_range_sight_m:
-                share = 0.0
-            elif away_m > _RANGE_SHARE * limits.link_range_blocked_m:
-                share = min(share, _HIDDEN)
+        of, height_m = place
+        point_x, point_y = places.itself(of, origin)
+        scores = []
+        for x, y, up_m in _heard_at(spec, site, places, ends[1], due_s):
+            away_m = norm2(norm2(x - point_x, y - point_y), height_m - up_m)
+            sees = away_m <= _RANGE_SHARE * min(reach_m, limits.link_range_sight_m)
+            near = away_m <= _RANGE_SHARE * min(reach_m, limits.link_range_blocked_m)
+            scores.append(1.0 if near else _HIDDEN if sees else 0.0)
+        share = min(share, sum(scores) / len(scores)) if scores else share
     return share
 
 
-def _place_of(spec: ScenarioSpec, sender: str) -> tuple[str, float] | None:
-    """Return the place at which a sender stays, and its height (m), None where it has none."""
-    first = next((m for m in spec.missions if m.uav == sender), None)
+def _heard_at(
+    spec: ScenarioSpec, site: Site, places: MapPlaces, receiver: str, due_s: float
+) -> Iterator[tuple[float, float, float]]:
+    """Yield where who is told something may be (x, y, height in m), as far as a site says it."""
+    told, origin = site.seat(receiver), site.origin()[:2]
+    agent = next((a for a in spec.agents if a.id == receiver), None)
+    if told is not None:
+        goes = _drives_from_start(spec, told.agent)
+        for pace_mps in _PACES_MPS if goes else (0.0,):
+            way_m = pace_mps * due_s
+            arc_m = min(told.arc_m + way_m, told.path.length_m)
+            yield *told.path.position_at(arc_m)[:2], 0.0
+    elif agent is None or agent.type in ON_SIDEWALKS:
+        there = _place_of(spec, receiver)
+        if there is not None:
+            yield *places.itself(there[0], origin), there[1]
+        elif agent is not None:
+            yield *origin, 0.0
+
+
+def _messages(spec: ScenarioSpec) -> Iterator[tuple[str, str, float]]:
+    """Yield sender, receiver and earliest time (s) of all that is sent."""
+    for event in spec.events:
+        if isinstance(event.action, SendMessage):
+            due_s = least_due_s(spec.events, event.id)
+            yield event.action.sender, event.action.receiver, due_s
+    yield from ((k.sender, k.receiver, 0.0) for k in spec.links if k.rate_hz is not None)
+
+
+def _place_of(spec: ScenarioSpec, body: str) -> tuple[str, float] | None:
+    """Return the place at which a body stays, and its height (m), None where it has none."""
+    first = next((m for m in spec.missions if m.uav == body), None)
     if first is not None:
         return (str(first.target), first.altitude_m.value) if has_point(first.target) else None
-    units = (a for a in spec.agents if a.id == sender and a.type is AgentType.RSU)
+    units = (a for a in spec.agents if a.id == body and a.type in ON_SIDEWALKS)
     placed = (p.of for unit in units for p in unit.placements)
     return next(((str(of), 0.0) for of in placed if has_point(of)), None)
 
@@ -176,3 +235,25 @@ def _can_meet(
             away_m = np.linalg.norm(way - person.path.position_at(person.arc_m)[:2], axis=1)
             return bool(away_m.min() < within_m)
     return True
+
+
+def stays_apart(spec: ScenarioSpec, site: Site) -> float:
+    """Return on which share of their way such vehicles are far enough apart, in [0, 1].
+
+    Both drive as fast as each other: where the road turns back they come near again.
+
+    Args:
+        spec: The request.
+        site: Where the vehicles stand.
+    """
+    share = 1.0
+    for pair in kept_apart(spec, [seat.agent.id for seat in site.seated]):
+        back, front = site.seat(pair.behind), site.seat(pair.ahead)
+        assert back is not None
+        assert front is not None  # they are seated
+        way_m = min(_APART_WAY_M, front.path.length_m - max(back.arc_m, front.arc_m))
+        ways = [samples_along(s.path, s.arc_m, way_m, _APART_STEP_M)[:, :2] for s in (back, front)]
+        count = min(map(len, ways))
+        away_m = np.linalg.norm(ways[0][:count] - ways[1][:count], axis=1)
+        share = min(share, float(np.mean(away_m > pair.least_m)))
+    return share

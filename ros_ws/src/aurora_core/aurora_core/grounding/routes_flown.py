@@ -12,11 +12,12 @@ from math import cos, inf, pi, sin
 import numpy as np
 import shapely
 
+from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.come_upon import before_sight, is_seen_last, lap_points
 from aurora_core.grounding.laps import REPEATED, Laps
 from aurora_core.grounding.neighbours import NOBODY, Neighbours
-from aurora_core.grounding.patterns import begun_at, pattern_points, place_pattern
+from aurora_core.grounding.patterns import begun_at, centred, pattern_points, place_pattern
 from aurora_core.grounding.planned_flight import (
     PlannedFlight,
     Rejected,
@@ -54,6 +55,9 @@ _INSIDE_M = 1.0
 _MOVED = (0.35, 0.7, 1.0)
 # And so far along the street, for those that are to be over it (m).
 _FARTHER_M = tuple(50.0 * k for k in range(1, 13))
+
+# The ends of a way beside another one are so much inside the tolerance of their places (m).
+_ENDS_OFF_M = 1.5
 
 # Radius of an orbit and of a ring of waypoints (m).
 _RADIUS_M = 30.0
@@ -228,9 +232,35 @@ class RoutePlanner:
         return _shown_m(plan.way_mps, self._tolerances.route_acceleration_mps2)
 
     def between(
+        self,
+        mission: UavMission,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        others: Neighbours = NOBODY,
+    ) -> PlannedFlight | Rejected:
+        """Return the plan of the way from one place to another (x, y in m), round obstacles.
+
+        Where another UAV flies the same way it is beside that: both ends still count as there.
+        """
+        best = self._between(mission, start, end)
+        if isinstance(best, Rejected):
+            return best
+        gap_m = others.gap_m(best.plan)
+        aside_m = self._tolerances.pattern_centre_m - _ENDS_OFF_M
+        way_x, way_y = end[0] - start[0], end[1] - start[1]
+        way_m = norm2(way_x, way_y)
+        for off_m in (aside_m, -aside_m):
+            if gap_m >= aside_m or way_m <= 0.0:
+                break
+            x, y = -off_m * way_y / way_m, off_m * way_x / way_m
+            found = self._between(mission, (start[0] + x, start[1] + y), (end[0] + x, end[1] + y))
+            if not isinstance(found, Rejected) and others.gap_m(found.plan) > gap_m:
+                best, gap_m = found, others.gap_m(found.plan)
+        return best
+
+    def _between(
         self, mission: UavMission, start: tuple[float, float], end: tuple[float, float]
     ) -> PlannedFlight | Rejected:
-        """Return the plan of the way from one place to another (x, y in m), round obstacles."""
         height_m = planned_height_m(mission, self._limits, self._tolerances)
         level = self._air.level_way(start, end, height_m, self._settings.clearance_m)
         if level is None:
@@ -273,6 +303,9 @@ class RoutePlanner:
             for along in shifts if mission.over_streets else (0.0,):
                 middle = (centre[0] + along * hx, centre[1] + along * hy)
                 placed = place_pattern(points, middle, heading)
+                # The circle through an odd number of points is not about their middle.
+                if mission.pattern is Pattern.WAYPOINTS and count % 2 and len(placed) > 1:
+                    placed = centred(placed, middle)
                 if self._air.bars_level(placed, height_m, self._settings.clearance_m):
                     continue
                 way = tuple((x, y, height_m) for x, y in placed)

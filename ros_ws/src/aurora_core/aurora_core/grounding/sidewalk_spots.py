@@ -5,11 +5,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.walk_ends import KERB_M, NEXT_M
+from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.walk_path import WalkPath, walk_along
+from aurora_core.spec.parameter import Bound, Parameter
 
 # Steps in which a spot at a stated distance is looked for (m).
 _STEP_M = 0.5
@@ -24,6 +27,13 @@ class Spot:
     path: WalkPath
     arc_m: float
     lateral_m: float = 0.0
+
+
+def off_m(stated: Parameter, tolerances: Tolerances) -> float:
+    """Return how far off a stated distance somebody may stand who is near another one (m)."""
+    if stated.bound is not Bound.EXACTLY:
+        return inf
+    return tolerances.placement_other_m.of(stated.value, approximate=stated.approximate)
 
 
 def at_distance(

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import copysign
 
@@ -192,26 +192,40 @@ def _rank(kinds: set[BehaviorKind], offset_m: float) -> int:
     return 2 if BehaviorKind.OVERTAKE in kinds else 1
 
 
-def with_room(origin: str, ties: list[Tie]) -> list[Tie]:
+def with_room(
+    origin: str, ties: list[Tie], needed_m: Callable[[str, str], float] = lambda *_: 0.0
+) -> list[Tie]:
     """Return ties in which nobody stands where another one does of whom nothing says where it is.
 
     Such a one lines up behind, or ahead, until it has room.
+
+    Args:
+        origin: Whose place all others follow from.
+        ties: Of the vehicles.
+        needed_m: How far apart two in one lane have to be, from middle to middle (m).
     """
     found = list(ties)
     tied = Counter(i for t in ties for i in (t.agent, t.other))
     for number, tie in enumerate(ties):
-        if not tie.guess or tied[tie.agent] > 1 or tie.agent == origin:
+        open_ = tie.guess or (tie.free and tie.offset_m != 0.0)
+        if not open_ or tied[tie.agent] > 1 or tie.agent == origin:
             continue
-        while _is_taken(tie.agent, solved(origin, found)):
+        while _is_taken(tie.agent, solved(origin, found), needed_m):
             step_m = copysign(IN_LINE_M, found[number].offset_m)
             found[number] = replace(tie, offset_m=found[number].offset_m + step_m)
     return found
 
 
-def _is_taken(agent: str, places: Mapping[str, tuple[float, int]]) -> bool:
+def _is_taken(
+    agent: str,
+    places: Mapping[str, tuple[float, int]],
+    needed_m: Callable[[str, str], float],
+) -> bool:
     own = places.get(agent)
     return own is not None and any(
-        other != agent and lane == own[1] and abs(along_m - own[0]) < _SAME_PLACE_M
+        other != agent
+        and lane == own[1]
+        and abs(along_m - own[0]) < max(_SAME_PLACE_M, needed_m(agent, other))
         for other, (along_m, lane) in places.items()
     )
 

@@ -26,7 +26,7 @@ from aurora_core.spec.scenario import (
 from aurora_core.spec.vocabulary import MissionMode, Relation
 
 # Room between a default and a bound, for wind and for the lag behind a moving target (m).
-_ALTITUDE_ROOM_M = 1.5
+_ALTITUDE_ROOM_M = 2.5
 _STANDOFF_ROOM_M = 8.0
 # And between two on the ground.
 _GAP_ROOM_M = 2.0
@@ -111,7 +111,7 @@ def _at_altitude(spec: ScenarioSpec, mission: UavMission, limits: Limits) -> Uav
     if mission.mode is MissionMode.TRACK and mission.target is not None:
         reach_m = stated_range(spec, _IN_SPACE, {mission.uav, mission.target}).high
         if value > reach_m - _STANDOFF_ROOM_M:
-            value = _HEIGHT_SHARE * reach_m
+            value = max(_HEIGHT_SHARE * reach_m, min(value, bounds.low + _ALTITUDE_ROOM_M))
     value = min(max(value, limits.uav_altitude_min_m), limits.uav_altitude_max_m)
     return mission.model_copy(update={'altitude_m': _moved(altitude, value, bounds)})
 

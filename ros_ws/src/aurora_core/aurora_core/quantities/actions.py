@@ -40,6 +40,8 @@ _NEARLY_MPS = 0.05
 
 # So much more of a change without a number is commanded than asked.
 _INSIDE_SHARE = 0.1
+# And this share of the tolerance of a speed where that is a bound.
+_BOUND_SHARE = 0.5
 
 # A person that left the carriageway nearer to where it stepped onto it has crossed nothing: on the
 # way to the crossing people brush the kerb (m).
@@ -120,7 +122,7 @@ class SpeedGoal:
 
     Attributes:
         value_mps: Speed to be reached.
-        tolerance_mps: On it.
+        tolerance_mps: On it; none on a stated bound.
         bound: "to at most 5 m/s" is reached below it, too.
     """
 
@@ -152,7 +154,9 @@ def speed_goal(action: AgentAction, before_mps: float, rules: ActionRules) -> Sp
     if stated is not None:
         slack = max(rules.speed_mps, rules.speed_share * stated.value)
         bound = stated.bound
-        if action.do in ('slow', 'brake') and bound is Bound.EXACTLY and before_mps < stated.value:
+        if bound is not Bound.EXACTLY:
+            return SpeedGoal(value_mps=stated.value, tolerance_mps=0.0, bound=bound)
+        if action.do in ('slow', 'brake') and before_mps < stated.value:
             # Who is slower already has nothing to do.
             bound = Bound.AT_MOST
         return SpeedGoal(value_mps=stated.value, tolerance_mps=slack, bound=bound)
@@ -178,10 +182,14 @@ def commanded_mps(action: AgentAction, now_mps: float, rules: ActionRules) -> fl
     """Return the speed that is commanded for an action, None when it is left to the driver.
 
     Half of a speed, and a gain, are of what it was when the action was due, a tick or two ago:
-    what is commanded is a little more than that.
+    what is commanded is a little more than that. Of a stated bound it is half its tolerance more.
     """
-    goal_mps = ends_with_mps(action, now_mps, rules)
-    if goal_mps is None or action.value_mps is not None or action.do not in ('slow', 'accelerate'):
+    goal_mps, stated = ends_with_mps(action, now_mps, rules), action.value_mps
+    if goal_mps is not None and stated is not None:
+        slack_mps = max(rules.speed_mps, rules.speed_share * stated.value)
+        inside_mps = max(0.0, stated.inside(_BOUND_SHARE * slack_mps))
+        return goal_mps if stated.bound is Bound.EXACTLY else inside_mps
+    if goal_mps is None or action.do not in ('slow', 'accelerate'):
         return goal_mps
     return goal_mps + _INSIDE_SHARE * (goal_mps - now_mps)
 

@@ -170,3 +170,12 @@ def _event(event_id: str, agent: GroundAgent, behavior: Behavior) -> Event:
         action=AgentAction(do=do, agent=agent.id, value_mps=speed, side=behavior.side),
         span=behavior.span,
     )
+
+
+def told_to_change_lane(spec: ScenarioSpec) -> frozenset[str]:
+    """Return the ids of those who change lane, by an event or by themselves."""
+    return frozenset(
+        e.action.agent
+        for e in (*spec.events, *own_events(spec))
+        if isinstance(e.action, AgentAction) and e.action.do == 'change_lane'
+    )

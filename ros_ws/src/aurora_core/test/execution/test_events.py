@@ -11,7 +11,7 @@ import pytest
 
 from aurora_core.knowledge.map_types import Building
 from aurora_core.outcomes.grounded import ReleaseOn
-from aurora_core.spec.parameter import Parameter, Provenance, Unit
+from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -407,6 +407,23 @@ def test_a_uav_reports_its_own_altitude_on_its_way_up(stage: Build, parameter: M
     for z in (5.0, 14.5, 20.0, 30.0):  # it is to ascend to 30 m
         scene.fly('uav1', 0.0, 0.0, z).step()
     assert _sent(scene) == [1]
+
+
+def test_what_needs_no_sight_is_sent_when_it_is_due_while_the_uav_climbs(
+    stage: Build, parameter: Make
+) -> None:
+    send = SendMessage(do='send_message', sender='uav1', receiver='ego')
+    stated = parameter(0.1, 's').model_copy(
+        update={'provenance': Provenance.EXPLICIT, 'span': Span(start=0, end=1)}
+    )
+    unsaid = stated.model_copy(update={'provenance': Provenance.DEFAULT, 'span': None})
+    for at_s, sent in ((stated, [2]), (unsaid, [4])):
+        event = _event(TimeTrigger(on='time', at_s=at_s), send)
+        scene = stage(events=(event,), links=(('uav1', 'ego'),))
+        for z in (1.0, 5.0, 10.0, 14.5):  # it is to ascend to 30 m, and to track the van
+            scene.fly('uav1', 15.0, 0.0, z).step()
+        scene.fly('uav1', 15.0, 0.0, 30.0).put('van1', 15.0).step()
+        assert _sent(scene) == sent, at_s
 
 
 def test_a_vehicle_sends_without_a_sight_rule(stage: Build, parameter: Make) -> None:

@@ -14,6 +14,8 @@ import shapely
 
 from aurora_core.grounding.neighbours import Neighbours
 from aurora_core.grounding.patterns import begun_at, pattern_points
+from aurora_core.grounding.places import MapPlaces
+from aurora_core.knowledge.map_model import MapModel
 from aurora_core.mission.plan import MissionPlan
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.quantities.waypoints import pattern_centre
@@ -130,3 +132,19 @@ def test_a_closed_pattern_begun_elsewhere_is_the_same_one(pattern: Pattern, shar
     assert sorted(turned[:-1]) == sorted(points[:-1])
     legs = {frozenset(leg) for leg in pairwise(points)}
     assert {frozenset(leg) for leg in pairwise(turned)} == legs
+
+
+def test_an_odd_number_of_waypoints_is_about_its_place(
+    grounded: Ground, map_of: Callable[[str], MapModel]
+) -> None:
+    found = grounded('A drone flies 3 waypoints at 50 m and 8 m/s over Meadow Park.')
+    (uav,) = found.uavs
+    x, y = pattern_centre(uav.missions[0].waypoints)
+    park_x, park_y = MapPlaces(map_of('downtown')).itself('landmark:Meadow Park', (0.0, 0.0))
+    assert np.hypot(x - park_x, y - park_y) < 1.0
+
+
+def test_two_on_one_way_fly_beside_each_other(grounded: Ground) -> None:
+    way = 'flies from City Hall to Union Station at 70 m.'
+    found = grounded(f'A drone {way} Another drone {way}')
+    assert _gap_m(*_ways(found)) > 7.5

@@ -139,3 +139,19 @@ def test_who_waits_for_traffic_has_time_where_nobody_flies(
     assert patience_s(alone) > 0.0
     assert horizon_s(alone, limits) > limits.horizon_inferred_min_s + patience_s(alone) - 1.0
     assert patience_s(read_prompt('A car drives. A bus stops at 20 s.', 'downtown')) == 0.0
+
+
+@pytest.mark.parametrize(('at_s', 'least_m'), [(10, 0.0), (40, 100.0)])
+def test_who_is_told_something_later_finds_the_drone_on_its_way(
+    at_s: float, least_m: float, read_prompt: Read, ground: Ground
+) -> None:
+    spec = read_prompt(
+        f'My car drives. A drone hovers at 30 m. At {at_s:g} s the drone sends a message to my '
+        'car.',
+        'downtown',
+    )
+    found = ground(spec, 'downtown')
+    point, car = found.uavs[0].missions[0].hover_point, _agent(found, 'car')
+    assert point is not None
+    ahead_m = (point[0] - car.x_m) * car.heading_x + (point[1] - car.y_m) * car.heading_y
+    assert ahead_m > least_m if least_m else abs(ahead_m) < 50.0

@@ -296,3 +296,30 @@ def test_who_crosses_where_no_crosswalk_is_stays_in_sight_of_who_tells_of_it(
     ends = np.array([(*point, person.height_m / 2.0) for point in person.way_xy_m])
     range_m = limits.sensing_range('rain', 'dusk')
     assert air.seen(np.array([hover] * len(ends)), ends, range_m).all()
+
+
+def test_one_before_the_intersection_and_another_at_the_crosswalk_are_on_roads_of_their_own(
+    scenes: Scenes, map_of: Callable[[str], MapModel]
+) -> None:
+    before = {'relation': 'before', 'of': 'intersection', 'distance_m': metres(50.0)}
+    found = scenes.agents(
+        'A police car waits at the crosswalk. A fire truck drives 12 m ahead of the police car. '
+        'A bus drives. A drone tracks the bus at 50 m.',
+        {'bus1': [before]},
+    )
+    bus, police = found['bus1'], found['police1']
+    middle = MapPlaces(map_of('downtown')).point('intersection', xy(police))
+    along_m = (middle[0] - bus.x_m) * bus.heading_x + (middle[1] - bus.y_m) * bus.heading_y
+    assert along_m == pytest.approx(50.0, abs=1.0)
+
+
+def test_a_person_near_a_vehicle_is_as_near_as_is_said(
+    scenes: Scenes, tolerances: Tolerances
+) -> None:
+    near = {'relation': 'near', 'of': 'ego', 'distance_m': metres(10.0)}
+    found = scenes.agents(
+        'The ego car waits at the crosswalk. A pedestrian waits. A drone hovers at 30 m.',
+        {'pedestrian1': [near]},
+    )
+    away_m = dist(xy(found['ego']), xy(found['pedestrian1']))
+    assert away_m == pytest.approx(10.0, abs=tolerances.placement_other_m.of(10.0))

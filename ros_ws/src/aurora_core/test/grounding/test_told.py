@@ -48,6 +48,21 @@ def test_a_roadside_unit_stays_where_it_is_said_to_be(agents: Agents, map_of: Ma
     assert dist((unit.x_m, unit.y_m), hall) < 100.0
 
 
+@pytest.mark.parametrize('place', ['Union Station', 'Mercy Hospital'])
+@pytest.mark.parametrize('who', ['pedestrian', 'car'])
+def test_whom_a_drone_over_a_landmark_tells_something_is_near_it(
+    agents: Agents, map_of: Maps, limits: Limits, who: str, place: str
+) -> None:
+    does = 'walks' if who == 'pedestrian' else 'drives'
+    found = agents(
+        f'A {who} {does}. A drone hovers over {place} at 60 m for 40 s. At 16 s the drone sends a '
+        f'message to the {who}.'
+    )
+    told = found[f'{who}1']
+    there = MapPlaces(map_of('downtown')).itself(f'landmark:{place}', (0.0, 0.0))
+    assert dist((told.x_m, told.y_m), there) < limits.link_range_blocked_m
+
+
 def test_who_slows_down_at_the_first_sight_is_on_the_move_by_then(agents: Agents) -> None:
     found = agents(f'{TRACKING}car. When my car gets the message, it slows down.')
     assert found['ego'].release is ReleaseOn.START

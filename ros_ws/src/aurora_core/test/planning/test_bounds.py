@@ -122,6 +122,15 @@ def test_a_greatest_distance_brings_it_down(parameter: Make) -> None:
     assert standoff_m == 0.0
 
 
+def test_a_greatest_distance_leaves_it_above_the_least_altitude(parameter: Make) -> None:
+    near = _says(parameter, 'distance', '<=', 50.0, 'uav1', 'van1')
+    high = _says(parameter, 'altitude', '>=', 40.0)
+    altitude_m, standoff_m = _flown(_spec(parameter, near, high))
+    # At the end of its ascent, 2 m lower, it is above the bound as well.
+    assert 42.0 < altitude_m < 50.0
+    assert standoff_m == 0.0
+
+
 def test_an_altitude_that_an_event_waits_for_is_passed(parameter: Make) -> None:
     reached = AltitudeTrigger(
         on='altitude_reached', uav='uav1', value_m=parameter(55.0, explicit=True)
