@@ -280,10 +280,21 @@ def _gains_to_mps(spec: ScenarioSpec, agent: GroundAgent, speeds: SpeedSettings)
     ]
 
 
+_SLOWS = frozenset({'brake', 'slow', 'stop', 'yield'})
+
+
 def _gains_from_mps(spec: ScenarioSpec, agent: GroundAgent, speeds: SpeedSettings) -> float | None:
-    """Return how fast an agent drives before it accelerates to a speed, None if it does not."""
+    """Return how fast an agent drives before it accelerates to a speed, None if it does not.
+
+    Who is to slow down or stop before is slow enough then, and drives as always until that.
+    """
     goals = _gains_to_mps(spec, agent, speeds)
-    if not goals:
+    does = [
+        e.action.do
+        for e in spec.events
+        if isinstance(e.action, AgentAction) and e.action.agent == agent.id
+    ]
+    if not goals or set(does[: does.index('accelerate')]) & _SLOWS:
         return None
     return max(speeds.least_before_gain_mps, min(goals) - speeds.before_gain_mps)
 

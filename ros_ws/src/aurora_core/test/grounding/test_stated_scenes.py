@@ -283,6 +283,13 @@ def test_who_is_to_gain_speed_drives_slower_before(
     assert found.agents[0].drive_speed_mps == 8.0
 
 
+def test_who_is_to_slow_down_first_does_not_crawl_before(
+    grounded: Callable[[str], GroundedScenario],
+) -> None:
+    prompt = 'A bus slows to 4 m/s at 20 s and accelerates to 9 m/s at 40 s.'
+    assert (grounded(prompt).agents[0].drive_speed_mps or 99.0) > 6.0
+
+
 def test_who_is_to_fall_back_is_slower_than_the_one_ahead(
     grounded: Callable[[str], GroundedScenario],
 ) -> None:

@@ -137,6 +137,9 @@ _NEAR = 'when the van comes within 30 m of the ego car'
         ),
         ('A drone scans the front of City Hall between 10 m and 40 m.', 'scans the front of'),
         ('At 10 s a van changes to the far left lane.', 'changes to the far left'),
+        ('At 25 s the ego car stops at the crosswalk.', 'stops at the crosswalk'),
+        ('The ego car yields to a pedestrian at the crosswalk.', 'at the crosswalk'),
+        ('A van overtakes the ego car at the intersection.', 'at the intersection'),
         (
             'Two drones hover at 60 m for 20 s, one over City Hall and one over Harbor Market, '
             'and stay at least 100 m apart.',
@@ -189,6 +192,8 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A drone flies at 40 m for 30 s.',
         'While a drone tracks a van, the van is always within 40 m of the ego car.',
         'A car turns left and a bus turns right.',
+        'A bus stops at the crosswalk. At 40 s it drives on.',
+        'At 25 s the ego car stops.',
         'A truck stops at 9 s, and a car stops at 12 s.',
         'If my car gets closer than 20 m to the truck ahead of it, it brakes.',
         'Five cars make way for a fire engine on an emergency run.',

@@ -28,6 +28,7 @@ from aurora_core.parsing.doubts.bodies import (
     twins,
     without_part,
 )
+from aurora_core.parsing.doubts.deeds import deeds_at_places, stops_at_places
 from aurora_core.parsing.doubts.flights import (
     flights_at_once,
     flights_over_nothing,
@@ -109,6 +110,8 @@ _CHECKS: tuple[_Check, ...] = (
     at_one_moment,
     bounds_meanwhile,
     times_of_others,
+    stops_at_places,
+    deeds_at_places,
     in_their_order,
     untied_causes,
     said_twice,
