@@ -321,6 +321,23 @@ def test_an_attempt_that_was_taken_away_is_said(run: Path, call: Call) -> None:
     assert 'bag.1, which report.json lists, is missing' in call('verify', str(run), '--json').out
 
 
+def test_another_attempt_is_the_one_that_is_listed(run: Path, call: Call) -> None:
+    def two(report: dict[str, Any]) -> None:
+        another = {'bag': 'bag.1', 'iteration': 1, 'trace_sha256': '0' * 64}
+        report['bags'].append({**report['bags'][0], **another})
+        report['repairs'].append(REPAIR)
+
+    shutil.copytree(run / 'bag.0', run / 'bag.1')
+    edited(run / 'report.json', two)
+    found = call('verify', str(run / 'bag.0'), '--json').out
+    assert 'bag.1 is not the attempt that report.json lists' in found
+    assert 'edits.1.json' in found
+    (run / 'bag.1' / 'bag.1_0.mcap').unlink(missing_ok=True)
+    for file in (run / 'bag.1').glob('*.mcap'):
+        file.write_bytes(b'')
+    assert 'bag.1: ' in call('verify', str(run / 'bag.0'), '--json').out
+
+
 def test_a_document_that_tells_something_twice_is_none(run: Path, call: Call) -> None:
     for name, once in (('report.json', '"seed": 1'), ('manifest.json', '"seed": 1')):
         stored = (run / name).read_text()

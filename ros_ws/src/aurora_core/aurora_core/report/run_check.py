@@ -23,6 +23,7 @@ from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Verdict, VerdictStatus
 from aurora_core.ports.model_name import OFFLINE
+from aurora_core.report.attempts import attempt_doubts
 from aurora_core.report.build import restated
 from aurora_core.report.comparison import Comparison, compare
 from aurora_core.report.doubts import Doubt, altered, trace_doubts, unknown
@@ -42,11 +43,10 @@ from aurora_core.report.run_report import (
     BagReport,
     ClauseReport,
     RelaxedReport,
-    RepairReport,
     RunReport,
     TraceReport,
 )
-from aurora_core.report.status import Status
+from aurora_core.report.status import CLAIMS_NOTHING, Status
 from aurora_core.report.versions import AURORA_VERSION
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
@@ -281,38 +281,12 @@ def _report(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
                 f'{REPORT}, {name},', 'the graph', entry.graph_sha256, bag.agsg.sha256
             )
     yield from _request(report, bag)
-    yield from _attempts(run, report, iteration)
+    yield from attempt_doubts(run, report, iteration)
     judged = _judged(report, listed)
     if judged is not None and judged.bag == name:
         yield from _by_which_judged(report, judged, len(listed), bag)
     elif judged is not None and not (run / judged.bag).exists():
         yield unknown(f'{judged.bag}, by which the run was judged, is missing')
-
-
-def _attempts(run: Path, report: RunReport, iteration: int) -> Iterator[Doubt]:
-    """Tell where the attempts of a run are not all there: they are numbered from 0."""
-    if not report.bags:
-        return
-    names = [entry.bag for entry in report.bags]
-    numbers = [entry.iteration for entry in report.bags]
-    if names != [f'bag.{number}' for number in range(len(names))] or numbers != [
-        *range(len(names))
-    ]:
-        yield altered(f'{REPORT} does not list the attempts one by one: {", ".join(names)}')
-    repaired = [repair.bag for repair in report.repairs if repair.bag is not None]
-    # What broke off in an attempt has its bag, and nothing to tell of it.
-    expected = names[1 : len(repaired) + 1] if report.status in _CLAIMS_NOTHING else names[1:]
-    if repaired != expected:
-        yield altered(f'the repairs in {REPORT} are not those of its bags: {", ".join(repaired)}')
-    told = {repair.iteration: repair for repair in report.repairs if repair.bag is not None}
-    for number in range(len(names)):
-        name = StageFile.EDITS.name_at(number)
-        edits = read_document(run / name, RepairReport)
-        if isinstance(edits, RepairReport) and edits != told.get(number):
-            yield altered(f'{name} is not what {REPORT} tells of that attempt')
-    for entry in report.bags:
-        if entry.iteration != iteration and not (run / f'bag.{entry.iteration}').exists():
-            yield unknown(f'bag.{entry.iteration}, which {REPORT} lists, is missing')
 
 
 def _judged(report: RunReport, listed: Sequence[BagReport]) -> BagReport | None:
@@ -428,7 +402,7 @@ def _by_which_judged(
     yield from _differs(REPORT, 'the digest of the graph', report.digests.agsg, bag.agsg.sha256)
     if [(c.text, c.status) for c in report.clauses] != [(c.text, c.status) for c in bag.clauses]:
         yield altered(f'{REPORT} has other clauses than the bag gives')
-    if bag.verdict.integrity is not Integrity.INTACT or report.status in _CLAIMS_NOTHING:
+    if bag.verdict.integrity is not Integrity.INTACT or report.status in CLAIMS_NOTHING:
         return
     again = None if report.relaxed is None else bag.relaxed()
     facts = replace(bag.facts, iterations=executions, relaxed=again)
@@ -472,7 +446,6 @@ def _claims(trace: TraceReport, entry: BagReport, bag: JudgedBag) -> Iterator[Do
             yield altered(f'{REPORT} has other findings than the bag gives')
 
 
-_CLAIMS_NOTHING = (Status.ERROR, Status.CANCELLED, Status.INCONCLUSIVE)
 _HOLDS = frozenset({Status.VERIFIED, Status.INCOMPLETE})
 _MAY_CLAIM = {
     VerdictStatus.VERIFIED: _HOLDS,

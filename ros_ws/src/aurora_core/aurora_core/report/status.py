@@ -35,6 +35,9 @@ class ExitCode(IntEnum):
     CANCELLED = 130
 
 
+# A run that ended so claims nothing of what it was to show.
+CLAIMS_NOTHING = (Status.ERROR, Status.CANCELLED, Status.INCONCLUSIVE)
+
 _EXIT_CODES = {
     Status.VERIFIED: ExitCode.OK,
     Status.VERIFIED_AS_EDITED: ExitCode.OK,
