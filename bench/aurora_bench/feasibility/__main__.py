@@ -102,6 +102,7 @@ def _goals(results: Sequence[Judged], broken: Sequence[Corrupted]) -> tuple[Goal
     false = sum(r.refused for r in kept)
     proofs = [valid for r in results for valid in r.valid]
     seconds = sorted(r.check_s for r in results)
+    busy = sorted(r.check_cpu_s for r in results)
     rejected = sum(not b.accepted for b in broken)
     wrong = sum(not r.right_reason for r in refused)
     return (
@@ -131,12 +132,22 @@ def _goals(results: Sequence[Judged], broken: Sequence[Corrupted]) -> tuple[Goal
             met=rejected == len(broken),
         ),
         Goal(
-            name='seconds per verdict (p50, p95, max)',
+            name='seconds per verdict (p50, p99, max)',
             target='at most 2',
-            figure=', '.join(f'{_quantile(seconds, q):.4f}' for q in (0.5, 0.95, 1.0)),
+            figure=_quantiles(seconds),
             met=seconds[-1] <= 2.0,
         ),
+        Goal(
+            name='processor seconds per verdict (p50, p99, max)',
+            target='at most 2',
+            figure=_quantiles(busy),
+            met=busy[-1] <= 2.0,
+        ),
     )
+
+
+def _quantiles(ordered: Sequence[float]) -> str:
+    return ', '.join(f'{_quantile(ordered, q):.4f}' for q in (0.5, 0.99, 1.0))
 
 
 def _quantile(ordered: Sequence[float], share: float) -> float:
@@ -194,6 +205,7 @@ def _document(result: Judged) -> dict[str, Any]:
         'reasons': list(result.reasons),
         'valid': list(result.valid),
         'check_s': round(result.check_s, 4),
+        'check_cpu_s': round(result.check_cpu_s, 4),
     }
 
 

@@ -30,6 +30,7 @@ class Judged:
         valid: Of each certificate, whether the re-check accepts it.
         read_s: Wall seconds of the reader.
         check_s: Wall seconds of the verdict after that.
+        check_cpu_s: Processor seconds of it, which other work on the machine changes less.
         recheck_s: Of checking all certificates again.
     """
 
@@ -40,6 +41,7 @@ class Judged:
     valid: tuple[bool, ...]
     read_s: float
     check_s: float
+    check_cpu_s: float
     recheck_s: float
 
     @property
@@ -65,7 +67,7 @@ def judged(known: Knowledge, map_name: str, case: Case) -> Judged:
         outcome = parse_stage(known, case.prompt, map_name, SEED)
     else:
         outcome = understood(known, ParseOutcome(spec=case.spec))
-    read = time.perf_counter()
+    read, read_cpu = time.perf_counter(), time.process_time()
     said, proofs = 'not read', tuple(refusal_certificate(r) for r in outcome.refusals)
     document: dict[str, Any] = {'prompt': case.prompt}
     if proofs:
@@ -74,7 +76,7 @@ def judged(known: Knowledge, map_name: str, case: Case) -> Judged:
         verdict = check_stage(known, outcome.agsg)
         said, proofs = verdict.result.value, verdict.certificates
         document = outcome.agsg.spec.model_dump(mode='json')
-    checked = time.perf_counter()
+    checked, checked_cpu = time.perf_counter(), time.process_time()
     valid = tuple(recheck(proof, document).valid for proof in proofs)
     return Judged(
         case=case,
@@ -84,5 +86,6 @@ def judged(known: Knowledge, map_name: str, case: Case) -> Judged:
         valid=valid,
         read_s=read - begin,
         check_s=checked - read,
+        check_cpu_s=checked_cpu - read_cpu,
         recheck_s=time.perf_counter() - checked,
     )

@@ -25,8 +25,6 @@ from aurora_core.spec.vocabulary import MissionMode
 
 # No point of a target that is looked at stands higher: half the height of the tallest vehicle.
 TARGET_HEIGHT_M = 2.0
-# Quantities that say how far two stay from each other.
-_APART = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
 
 
 class Geometry:
@@ -71,7 +69,11 @@ class Geometry:
         return math.hypot(max(0.0, low - TARGET_HEIGHT_M), near), math.hypot(high, far)
 
     def kept_off(self, mission: UavMission) -> tuple[StatedCondition, ...]:
-        """Return what keeps a UAV up, or away from its target, as long as a phase lasts."""
+        """Return what keeps a UAV up, or away from its target, as long as a phase lasts.
+
+        What is beyond any standoff is told of as such.
+        """
+        most_m = self._limits.uav_standoff_max_m + self._limits.tracking_horizontal_m
         target, pair = mission.target, {mission.uav, mission.target}
         if target is None or in_parts(self._spec, {mission.uav}):
             return ()
@@ -82,7 +84,12 @@ class Geometry:
             and whole(c)
             and is_stated(c.value)
             and (
-                (c.quantity in _APART and set(c.of) == pair)
+                (c.quantity == QuantityName.DISTANCE and set(c.of) == pair)
+                or (
+                    c.quantity == QuantityName.HORIZONTAL_DISTANCE
+                    and set(c.of) == pair
+                    and c.value.value <= most_m
+                )
                 or (
                     c.quantity == QuantityName.ALTITUDE
                     and set(c.of) == {mission.uav}

@@ -17,12 +17,22 @@ from aurora_core.spec.requirements import SceneCount
 from aurora_core.spec.vocabulary import AgentType, ClauseStatus
 
 
-def close_scene(scene: Scene, atoms: Sequence[Atom], resolver: Resolver) -> None:
+def close_scene(
+    scene: Scene, atoms: Sequence[Atom], tagged: Sequence[Atom], resolver: Resolver
+) -> None:
     """Add to a scene the numbers that close it, each to the clause that states it.
 
     `no truck`, `no other bicycle`, `no other traffic`: those that are named are all.
+
+    Args:
+        scene: What was read.
+        atoms: As they were read.
+        tagged: As they were told: of `exactly two vehicles, a car and a van` the sum is not read.
+        resolver: Of the names.
     """
-    for atom in atoms:
+    left_out = {(a.start, a.end) for a in atoms if a.kind is AtomKind.FILL}
+    sums = (a for a in tagged if a.noun is not None and (a.start, a.end) in left_out)
+    for atom in (*atoms, *sums):
         noun = atom.noun
         if atom.kind is AtomKind.NO_TRAFFIC:
             _close(scene, 'vehicle', Span(start=atom.start, end=atom.end))

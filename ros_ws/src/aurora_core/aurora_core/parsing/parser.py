@@ -94,7 +94,7 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
     if scene.questions:
         question = ' '.join(dict.fromkeys(scene.questions))
         return ParseOutcome(question=question, clauses=scene.finished_clauses())
-    close_scene(scene, read.told.atoms, read.resolver)
+    close_scene(scene, read.told.atoms, tagged.atoms, read.resolver)
     aside = set_aside(scene.clauses, prompt)
     spec = _build(scene)
     lost = unaccounted(

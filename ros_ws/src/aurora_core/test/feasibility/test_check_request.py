@@ -247,3 +247,12 @@ def test_a_message_that_is_to_be_lost_may_be_out_of_range() -> None:
     lost = asked('c1', 'delivered', ['uav1', 'ego'], '==', 0.0, '1')
     document = {**spec.model_dump(mode='json'), 'conditions': [lost]}
     assert judged(ScenarioSpec.model_validate(document)).certificates == ()
+
+
+def test_a_sum_told_exactly_closes_the_scene_also_where_it_is_listed() -> None:
+    """Of `exactly two vehicles, a car and a van` nothing was left of `exactly`."""
+    scene = 'The scene contains exactly two vehicles, a car and a van.'
+    assert [c.value.value for c in _read(scene).counts] == [2.0]
+    crowded = _judged(f'{scene} There is heavy traffic.')
+    assert {c.reason for c in crowded.certificates} == {'count'}
+    assert _read(scene.replace('exactly ', '')).counts == ()
