@@ -136,7 +136,7 @@ def test_ways_and_sight_lines_can_be_seen(make: SimpleNamespace, tmp_path: Path)
     assert max(p.z for p in flown.points) == pytest.approx(trace.uav[:, 0, 2].max(), abs=0.5)
     lines = [(time_s, m) for time_s, m in shown if m.ns == 'sight']
     # From what is first known on, and no longer than both are there.
-    assert (lines[0][0], lines[-1][0]) == pytest.approx((5.0, 14.9))
+    assert [lines[0][0], lines[-1][0]] == pytest.approx([5.0, 14.9])
     green = [m.color.g > m.color.r for _, m in lines]
     assert green == [time_s < 10.0 for time_s, _ in lines]
     tick = round(lines[20][0] / trace.roster.dt_s)
