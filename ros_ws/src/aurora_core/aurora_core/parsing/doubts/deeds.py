@@ -11,10 +11,11 @@ from aurora_core.parsing.doubts.clauses import meet
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.reference import is_place
 from aurora_core.spec.scenario import AgentAction, Clause, GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, Place
 
 # Done on the way: a place in such a clause is not where one starts.
 _ON_THE_WAY = frozenset({BehaviorKind.OVERTAKE, BehaviorKind.YIELD})
+_STRETCHES = frozenset({Place.MAIN_ROAD, Place.ROADSIDE, Place.SIDEWALK})
 
 
 def stops_at_places(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
@@ -37,7 +38,8 @@ def deeds_at_places(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
         told = [b.span for b in agent.behaviors if b.kind in _ON_THE_WAY and b.span is not None]
         for placement in agent.placements:
             span, of = placement.span, placement.of
-            if span is None or of is None or not is_place(of):
+            # Whoever is on a road, or a sidewalk, is so before and after the deed, too.
+            if span is None or of is None or not is_place(of) or of in _STRETCHES:
                 continue
             if any(meet(span, one) for one in told):
                 yield span
