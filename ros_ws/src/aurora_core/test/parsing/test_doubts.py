@@ -194,7 +194,7 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A car turns left and a bus turns right.',
         'A bus stops at the crosswalk. At 40 s it drives on.',
         'At 25 s the ego car stops.',
-        'A fire engine is on an emergency run, and the five cars on the main road make way for it.',
+        'A fire engine is on an emergency run. Five cars on the main road make way for it.',
         'A truck stops at 9 s, and a car stops at 12 s.',
         'If my car gets closer than 20 m to the truck ahead of it, it brakes.',
         'Five cars make way for a fire engine on an emergency run.',
