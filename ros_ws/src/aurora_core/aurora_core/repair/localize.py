@@ -104,7 +104,7 @@ def localize(
             case.add(share * score * known, row.id, reason, None)
         for name, evidence in out_of_reach(agsg, condition).items():
             if name in movable:
-                case = cases.setdefault((name, -1), _Case())
+                case = cases.setdefault((name, evidence.direction), _Case())
                 score = share * _severity(row) * _EVIDENCE
                 case.add(score, row.id, f'{_told(row)}: {evidence.because}', evidence.aim)
     found = [

@@ -5,11 +5,13 @@
 That is the distance at which something happens, or one to stay within. A distance to a UAV counts
 the height. Who tracks a body is as far from it as altitude and standoff are together, whatever the
 road; so is who hovers over a place from what passes there. A follower that starts behind the
-greatest gap is out of it until it has caught up.
+greatest gap is out of it until it has caught up; one that starts hardly farther away than it has
+to keep has nothing to lose when the other one slows down.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import hypot, sqrt
 
@@ -25,7 +27,10 @@ from aurora_core.spec.vocabulary import MissionMode, Relation
 _INSIDE = 0.7
 # Who follows starts in the middle of the gap that is allowed.
 _MIDDLE = 0.5
+# Who has to keep a distance starts at least so many times as far away, and is put so far.
+_SCARCE, _AMPLE = 1.5, 6.0
 _BESIDE = (Relation.BEHIND, Relation.AHEAD)
+_DISTANCES = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,14 +40,16 @@ class Evidence:
     Attributes:
         aim: A value with which it can come true, in the parameter's unit.
         because: In English.
+        direction: Whether more (1) or less (-1) of it helps.
     """
 
     aim: float
     because: str
+    direction: int = -1
 
 
 def out_of_reach(agsg: Agsg, condition: Condition) -> dict[str, Evidence]:
-    """Return what keeps a UAV farther away than a condition asks or waits for, by path.
+    """Return what keeps two farther from each other, or nearer, than a condition asks, by path.
 
     Args:
         agsg: Grounded, as it was executed.
@@ -51,6 +58,8 @@ def out_of_reach(agsg: Agsg, condition: Condition) -> dict[str, Evidence]:
     spec = agsg.realised_spec
     if isinstance(condition.arguments, FollowFraction):
         return _too_far_behind(spec, condition, condition.arguments)
+    if condition.quantity in _DISTANCES and condition.op in ('>', '>='):
+        return _too_near(spec, condition)
     asked = _waited_for(spec, condition) or _to_stay_within(condition)
     if asked is None:
         return {}
@@ -64,19 +73,36 @@ def out_of_reach(agsg: Agsg, condition: Condition) -> dict[str, Evidence]:
 def _too_far_behind(
     spec: ScenarioSpec, condition: Condition, asked: FollowFraction
 ) -> dict[str, Evidence]:
-    found = {}
+    return {
+        path: Evidence(
+            aim=_MIDDLE * (asked.low_m + asked.high_m),
+            because=f'{gap.value:.3g} m apart at the start, {asked.high_m:g} m are allowed',
+        )
+        for path, gap in _gaps(spec, condition)
+        if gap.value > asked.high_m
+    }
+
+
+def _too_near(spec: ScenarioSpec, condition: Condition) -> dict[str, Evidence]:
+    least_m = condition.threshold
+    return {
+        path: Evidence(
+            aim=min(gap.high, _AMPLE * least_m),
+            because=f'{gap.value:.3g} m apart at the start, {least_m:g} m are to be kept',
+            direction=1,
+        )
+        for path, gap in _gaps(spec, condition)
+        if gap.value < _SCARCE * least_m < gap.high
+    }
+
+
+def _gaps(spec: ScenarioSpec, condition: Condition) -> Iterator[tuple[str, Parameter]]:
+    """Yield the distances at which those of a condition start, one behind the other, by path."""
     for agent in spec.agents:
         for k, placement in enumerate(agent.placements):
             between = {agent.id, placement.of} == {*condition.of}
-            if placement.distance_m is None or placement.relation not in _BESIDE or not between:
-                continue
-            here_m = placement.distance_m.value
-            if here_m > asked.high_m:
-                found[f'agents/{agent.id}/placements/{k}/distance_m'] = Evidence(
-                    aim=_MIDDLE * (asked.low_m + asked.high_m),
-                    because=f'{here_m:.3g} m apart at the start, {asked.high_m:g} m are allowed',
-                )
-    return found
+            if placement.distance_m is not None and placement.relation in _BESIDE and between:
+                yield f'agents/{agent.id}/placements/{k}/distance_m', placement.distance_m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,11 +123,9 @@ def _waited_for(spec: ScenarioSpec, condition: Condition) -> _Asked | None:
 
 
 def _to_stay_within(condition: Condition) -> _Asked | None:
+    if condition.quantity not in _DISTANCES or condition.op not in ('<', '<='):
+        return None
     flat = condition.quantity is QuantityName.HORIZONTAL_DISTANCE
-    if not flat and condition.quantity is not QuantityName.DISTANCE:
-        return None
-    if condition.op not in ('<', '<='):
-        return None
     return _Asked(of=condition.of, reach_m=condition.threshold, flat=flat)
 
 
@@ -111,7 +135,6 @@ def _of_mission(mission: UavMission, reach_m: float, *, flat: bool) -> dict[str,
     away_m = mission.standoff_m.value if tracks and mission.standoff_m is not None else 0.0
     if hypot(height_m, away_m) <= reach_m:
         return {}
-    inside_m = _INSIDE * reach_m
     told = f'{hypot(height_m, away_m):.3g} m away it never comes within {reach_m:.3g} m'
     path = f'missions/{mission.id}'
     sides = [] if flat else [(f'{path}/altitude_m', mission.altitude_m, away_m)]
@@ -120,13 +143,19 @@ def _of_mission(mission: UavMission, reach_m: float, *, flat: bool) -> dict[str,
     return {
         name: Evidence(aim=aim, because=told)
         for name, parameter, other_m in sides
-        if (aim := _aim(parameter, other_m, inside_m)) is not None
+        if (aim := _aim(parameter, other_m, reach_m)) is not None
     }
 
 
-def _aim(parameter: Parameter, other_m: float, inside_m: float) -> float | None:
-    """Return the value that brings the distance inside, None when this one alone cannot."""
-    if other_m >= inside_m:
+def _aim(parameter: Parameter, other_m: float, reach_m: float) -> float | None:
+    """Return the value that brings the distance inside, None when this one alone cannot.
+
+    Where the other side takes most of the distance, half of what it leaves is aimed at.
+    """
+    if other_m >= reach_m:
         return None
+    inside_m = _INSIDE * reach_m
+    if other_m >= inside_m:
+        inside_m = 0.5 * (other_m + reach_m)
     aim = sqrt(inside_m * inside_m - other_m * other_m)
     return aim if parameter.low <= aim < parameter.value else None

@@ -89,3 +89,27 @@ def test_who_starts_behind_the_greatest_gap_starts_nearer(gap_m: float, is_named
     named = out_of_reach(found, follows)
     assert set(named) == ({row.path} if is_named else set())
     assert all(10.0 < evidence.aim < 50.0 for evidence in named.values())
+
+
+def test_a_start_gap_that_leaves_no_room_to_a_distance_to_keep_is_named_with_a_larger_one() -> (
+    None
+):
+    prompt = (
+        'A motorcycle drives behind a bus. The distance between the motorcycle and the bus is '
+        'always more than 24 meters.'
+    )
+    parsed = parse_stage(_KNOWN, prompt, 'downtown', 1).agsg
+    assert parsed is not None
+    graph = ground_stage(_KNOWN, parsed, 1).agsg
+    assert graph is not None
+    [kept] = [c for c in graph.conditions if c.quantity is QuantityName.DISTANCE]
+    [(path, found)] = out_of_reach(graph, kept).items()
+    assert path == 'agents/motorcycle1/placements/0/distance_m'
+    assert (found.direction, found.aim) == (1, 144.0)
+    assert found.because.endswith('24 m are to be kept')
+
+
+def test_a_height_that_takes_most_of_a_distance_leaves_a_standoff_that_fits() -> None:
+    found = evidence(grounded(31.0, 70.0))
+    assert set(found) == {STANDOFF}
+    assert hypot(31.0, found[STANDOFF]) < 40.0
