@@ -15,7 +15,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.planning.complete import complete
-from aurora_core.spec.events import AgentAction, DistanceTrigger, Event, TimeTrigger
+from aurora_core.spec.events import AgentAction, AgentDo, DistanceTrigger, Event, TimeTrigger
 from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
@@ -120,7 +120,7 @@ def test_who_only_shares_a_lane_stands_where_nobody_else_does(
 
 @pytest.mark.parametrize('does', ['change_lane', 'brake'])
 def test_who_changes_lane_has_that_lane_free(
-    agent_types: Mapping[str, AgentTypeRecord], does: str
+    agent_types: Mapping[str, AgentTypeRecord], does: AgentDo
 ) -> None:
     at_s = Parameter(
         value=9.0, unit=Unit.SECOND, low=9.0, high=9.0, provenance=Provenance.INFERRED

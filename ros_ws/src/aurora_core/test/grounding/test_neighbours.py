@@ -147,4 +147,5 @@ def test_an_odd_number_of_waypoints_is_about_its_place(
 def test_two_on_one_way_fly_beside_each_other(grounded: Ground) -> None:
     way = 'flies from City Hall to Union Station at 70 m.'
     found = grounded(f'A drone {way} Another drone {way}')
-    assert _gap_m(*_ways(found)) > 7.5
+    one, other = _ways(found)
+    assert _gap_m(one, other) > 7.5
