@@ -15,7 +15,7 @@ from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
 from aurora_core.feasibility.operands import AT_LEAST, whole
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
-from aurora_core.spec.events import sends_on_the_way_up
+from aurora_core.spec.events import reports_own_altitude
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
@@ -122,16 +122,15 @@ def check_geometry(
 def _radio(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[Certificate]:
     """A UAV sends only after its ascent: then it is as high as one of its phases at least.
 
-    Who tracks sends when it is at its place; on the way to a hover it may pass nearer. What it
-    needs to see nothing for it may send on its way up. What a UAV receives may come while it
-    stands on the ground.
+    Who tracks sends when it is at its place; on the way to a hover it may pass nearer. Its own
+    altitude it reports on its way up. What a UAV receives may come while it stands on the ground.
     """
     sent = {
         (e.action.sender, e.action.receiver)
         for e in spec.events
         if isinstance(e.action, SendMessage)
     }
-    climbing = {getattr(e.action, 'sender', '') for e in spec.events if sends_on_the_way_up(e)}
+    climbing = {getattr(e.action, 'sender', '') for e in spec.events if reports_own_altitude(e)}
     for link in spec.links:
         pair = (link.sender, link.receiver)
         if pair not in sent:
