@@ -76,6 +76,10 @@ def _is_to_be_lost(spec: ScenarioSpec, link: Link) -> bool:
     )
 
 
+# A UAV is off the ground after so long (s).
+_TAKES_OFF_S = 5.0
+
+
 @dataclass(frozen=True)
 class Flight:
     """The flight of a UAV that sends a message at an event.
@@ -98,7 +102,7 @@ class Flight:
 
     def nearest_m(self) -> float:
         """Return how near the two are at least while the message may pass, metres."""
-        if not self.missions or sends_on_the_way_up(self.event):
+        if not self.missions or self._may_be_climbing():
             return 0.0
         geometry = Geometry(self.spec, self.limits, self.tolerances)
         flying = {uav.id for uav in self.spec.uavs}
@@ -114,6 +118,20 @@ class Flight:
                 low_m = geometry.altitude(mission)[0] - self._sunk_m(left_s)
                 found.append(max(0.0, low_m - TARGET_HEIGHT_M))
         return min(found)
+
+    def _may_be_climbing(self) -> bool:
+        """Tell whether the sender may send before it is as high as its first mission asks.
+
+        At a stated time it does not wait for that; half its climb rate, and some seconds before it
+        takes off, are slower than any ascent.
+        """
+        if not sends_on_the_way_up(self.event):
+            return False
+        trigger, first = self.event.trigger, self.missions[0]
+        if not isinstance(trigger, TimeTrigger) or self._is_redirected():
+            return True
+        up_s = 2.0 * first.altitude_m.high / self.limits.uav_climb_max_mps + _TAKES_OFF_S
+        return trigger.at_s.low < up_s
 
     def _sunk_m(self, left_s: float) -> float:
         """Return how far the sender may have sunk so long after its last mission, metres."""
