@@ -76,8 +76,8 @@ def _is_to_be_lost(spec: ScenarioSpec, link: Link) -> bool:
     )
 
 
-# A UAV is off the ground after so long (s).
-_TAKES_OFF_S = 5.0
+# An ascent takes so long at least at its two ends (s), and has this share of the climb rate.
+_TAKES_OFF_S, _ASCENT_SHARE = 5.0, 0.7
 
 
 @dataclass(frozen=True)
@@ -122,16 +122,17 @@ class Flight:
     def _may_be_climbing(self) -> bool:
         """Tell whether the sender may send before it is as high as its first mission asks.
 
-        At a stated time it does not wait for that; half its climb rate, and some seconds before it
-        takes off, are slower than any ascent.
+        At a stated time it does not wait for that. No ascent is slower than a share of its climb
+        rate and some seconds at both ends.
         """
         if not sends_on_the_way_up(self.event):
             return False
-        trigger, first = self.event.trigger, self.missions[0]
+        trigger, first = self.event.trigger, self.missions[0].altitude_m
         if not isinstance(trigger, TimeTrigger) or self._is_redirected():
             return True
-        up_s = 2.0 * first.altitude_m.high / self.limits.uav_climb_max_mps + _TAKES_OFF_S
-        return trigger.at_s.low < up_s
+        climb_mps = _ASCENT_SHARE * self.limits.uav_climb_max_mps
+        up_s = most(first, 0.0, math.inf) / climb_mps + _TAKES_OFF_S
+        return least(trigger.at_s, 0.0, 0.0) < up_s
 
     def _sunk_m(self, left_s: float) -> float:
         """Return how far the sender may have sunk so long after its last mission, metres."""

@@ -119,7 +119,7 @@ def kind_of(condition: Condition) -> str:
     for name, value in condition.arguments:
         if name == 'share' and value is not None:
             kind += '/share'
-        elif name in _READINGS:
+        elif name in _READINGS and value is not None:
             kind += f'/{value}' if isinstance(value, str) else f'/{name}' * value
     return kind
 

@@ -8,12 +8,13 @@ The street has two lanes along +x, at y = 0 and y = 3.3, each 3.3 m wide, with a
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 from kind_rows import Row, gone
 from trace_builder import FloatArray, number
-from trace_cases import Case, ground_case
+from trace_cases import Case, ground_case, spec
 
 from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.verdict import Reason
@@ -54,6 +55,17 @@ def _changes(*ticks: int, lanes: int = 2, side: LaneSide | None = None) -> Case:
     for tick in ticks:
         y = case.run.agents[0].y
         y[tick:] = 3.3 - y[tick:]
+    return case
+
+
+def _told(side: LaneSide) -> Case:
+    """A car that is told at 9 s to go to a side goes to the left at 10 s."""
+    case = _street(ground_case(Behavior(kind=B.DRIVE), _steady(5.0)))
+    case.run.agents[0].y[200:] = 3.3
+    trigger = {'on': 'time', 'at_s': number(9.0, Unit.SECOND)}
+    action = {'do': 'change_lane', 'agent': 'car1', 'side': side}
+    event = {'id': 'e1', 'trigger': trigger, 'action': action}
+    case.spec = spec(**{**dict(case.spec), 'events': (event,)})
     return case
 
 
@@ -105,6 +117,13 @@ ROWS = (
         make=lambda: _changes(200, side=LaneSide.LEFT),
         margin=10.0 - 2.0,
         what='left',
+    ),
+    Row(id='car1.change_lane', make=lambda: _changes(side=LaneSide.LEFT), margin=0.0 - 2.0),
+    Row(id='e1.lane', make=lambda: _told(LaneSide.LEFT), margin=10.0 - 2.0),
+    Row(id='e1.lane', make=lambda: _told(LaneSide.RIGHT), margin=0.0 - 2.0, what='not-right'),
+    *(
+        Row(id='car1.change_lane', make=partial(_changes, 200, lanes=1, side=side), reason=NEVER)
+        for side in LaneSide
     ),
     Row(
         id='car1.change_lane',
