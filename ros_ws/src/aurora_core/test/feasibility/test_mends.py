@@ -41,7 +41,7 @@ LINK = {
 }
 SENT = {
     'id': 'e1',
-    'trigger': {'on': 'time', 'at_s': number(20.0, 's')},
+    'trigger': {'on': 'time', 'at_s': number(40.0, 's')},
     'action': {'do': 'send_message', 'sender': 'uav1', 'receiver': 'car1'},
 }
 TRACKED = flown(
