@@ -47,7 +47,7 @@ _SOON_S, _MOST_AHEAD_M = 20.0, 250.0
 _STAYS = (BehaviorKind.WAIT, BehaviorKind.PARK, BehaviorKind.STOP)
 # Of the range of a link so much is counted on; beyond that of a hidden one it may be hidden.
 _RANGE_SHARE = 0.9
-_HIDDEN = 0.6
+_HIDDEN, _FAR = 0.6, 0.5
 
 
 def comes_about(spec: ScenarioSpec, site: Site) -> bool:
@@ -169,9 +169,11 @@ def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> 
         scores = []
         for x, y, up_m in _heard_at(spec, site, places, ends[1], due_s):
             away_m = norm2(norm2(x - point_x, y - point_y), height_m - up_m)
-            sees = away_m <= _RANGE_SHARE * min(reach_m, limits.link_range_sight_m)
+            sight_m = _RANGE_SHARE * min(reach_m, limits.link_range_sight_m)
             near = away_m <= _RANGE_SHARE * min(reach_m, limits.link_range_blocked_m)
-            scores.append(1.0 if near else _HIDDEN if sees else 0.0)
+            # Beyond the range nearer is better still: some of that share is left.
+            far = _FAR * sight_m / away_m if away_m > sight_m else _HIDDEN
+            scores.append(1.0 if near else far)
         share = min(share, sum(scores) / len(scores)) if scores else share
     return share
 
