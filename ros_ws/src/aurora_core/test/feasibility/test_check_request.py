@@ -24,8 +24,8 @@ REFUSED = (
     ('At night in fog a UAV tracks a bus from a standoff of 80 m.', 'sensing_range'),
     ('A drone tracks a car that drives at 30 m/s.', 'speed_limit'),
     (
-        'The UAV hovers 110 m above the ego car and sends it a message at 40 s over a radio '
-        'with a range of 80 m.',
+        'The UAV hovers 110 m above the ego car for 60 s and sends it a message at 40 s over a '
+        'radio with a range of 80 m.',
         'comm_range',
     ),
     (

@@ -45,7 +45,11 @@ SENT = {
     'action': {'do': 'send_message', 'sender': 'uav1', 'receiver': 'car1'},
 }
 TRACKED = flown(
-    mode='track', target='car1', altitude_m=number(70.0, 'm'), standoff_m=number(0.0, 'm')
+    mode='track',
+    target='car1',
+    altitude_m=number(70.0, 'm'),
+    standoff_m=number(0.0, 'm'),
+    duration_s=number(60.0, 's'),
 )
 LANDED = {**asked('c1', 'landed', ['uav1'], '==', 1.0, '1'), 'by_s': number(40.0, 's')}
 CASES = {
