@@ -295,12 +295,9 @@ def _stand(spec: ScenarioSpec, ids: Iterable[str], by_id: Mapping[str, GroundAge
 def _only_told(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether of a vehicle nothing is said but that a UAV tells it something."""
     uavs = {uav.id for uav in spec.uavs}
-    told = {
-        e.action.receiver
-        for e in spec.events
-        if isinstance(e.action, SendMessage) and e.action.sender in uavs
-    }
-    return agent.id in told and not agent.behaviors and sets_off(spec.events, agent.id) is None
+    sent = [e.action for e in spec.events if isinstance(e.action, SendMessage)]
+    told = any(m.receiver == agent.id and m.sender in uavs for m in sent)
+    return told and not agent.behaviors and sets_off(spec.events, agent.id) is None
 
 
 def oncoming_to(agent: GroundAgent) -> Placement | None:
