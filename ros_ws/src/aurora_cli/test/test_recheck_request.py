@@ -32,8 +32,8 @@ RULES = (
     (Rule.SENSING, 'In fog a drone hovers over the crosswalk at 95 m.'),
     (
         Rule.RADIO,
-        'The UAV hovers 110 m above the ego car and sends it a message at 20 s over a radio '
-        'with a range of 80 m.',
+        'The UAV hovers 110 m above the ego car for 60 s and sends it a message at 40 s over a '
+        'radio with a range of 80 m.',
     ),
     (Rule.CLOSENESS, 'Two drones hover over City Hall at 50 m and keep at most 3 m apart.'),
     (

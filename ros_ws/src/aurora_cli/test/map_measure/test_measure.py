@@ -208,8 +208,8 @@ def test_a_clearance_that_changes_is_measured_again(config: Path, call: Call) ->
 
 def test_a_link_range_that_changes_is_sent_over_again(config: Path, call: Call) -> None:
     far = (
-        'A drone hovers over the ego car at 100 m and sends it a message at 60 s. The drone is '
-        'never closer than 80 m to the ego car.'
+        'The distance between the bus and the van always stays above 80 m. At 20 s the bus sends '
+        'a message to the van.'
     )
     assert call('check', '--map', 'junction', far).code == 0
     _edit(config / 'limits.json', '"link_range_sight_m": 500.0', '"link_range_sight_m": 60.3')

@@ -131,7 +131,7 @@ class Flight:
         if not isinstance(trigger, TimeTrigger) or self._is_redirected():
             return True
         climb_mps = _ASCENT_SHARE * self.limits.uav_climb_max_mps
-        up_s = most(first, 0.0, math.inf) / climb_mps + _TAKES_OFF_S
+        up_s = most(first, 0.0, self.limits.uav_altitude_max_m) / climb_mps + _TAKES_OFF_S
         return least(trigger.at_s, 0.0, 0.0) < up_s
 
     def _sunk_m(self, left_s: float) -> float:

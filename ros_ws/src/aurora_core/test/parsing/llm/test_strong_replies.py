@@ -66,7 +66,7 @@ def test_few_words_of_right_answers_are_admitted_as_lost(read: dict[str, ParseOu
         for prompt, o in read.items()
         if o.spec is not None
     }
-    assert sum(map(bool, lost.values())) <= 14, {p: t for p, t in lost.items() if t}
+    assert sum(map(bool, lost.values())) <= 15, {p: t for p, t in lost.items() if t}
 
 
 def test_every_number_of_an_encoded_clause_is_where_the_prompt_states_it(
