@@ -20,7 +20,7 @@ from aurora_core.feasibility.operands import AT_LEAST, whole
 from aurora_core.feasibility.zones import is_redirected
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
-from aurora_core.spec.events import sends_on_the_way_up
+from aurora_core.spec.events import reports_own_altitude
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
@@ -76,10 +76,6 @@ def _is_to_be_lost(spec: ScenarioSpec, link: Link) -> bool:
     )
 
 
-# An ascent takes so long at least at its two ends (s), and has this share of the climb rate.
-_TAKES_OFF_S, _ASCENT_SHARE = 5.0, 0.7
-
-
 @dataclass(frozen=True)
 class Flight:
     """The flight of a UAV that sends a message at an event.
@@ -101,8 +97,11 @@ class Flight:
         return [m for m in self.spec.missions if m.uav == self.link.sender]
 
     def nearest_m(self) -> float:
-        """Return how near the two are at least while the message may pass, metres."""
-        if not self.missions or self._may_be_climbing():
+        """Return how near the two are at least while the message may pass, metres.
+
+        Who hovers or tracks and sends does so from there: not in its ascent, whatever the time.
+        """
+        if not self.missions or reports_own_altitude(self.event):
             return 0.0
         geometry = Geometry(self.spec, self.limits, self.tolerances)
         flying = {uav.id for uav in self.spec.uavs}
@@ -118,21 +117,6 @@ class Flight:
                 low_m = geometry.altitude(mission)[0] - self._sunk_m(left_s)
                 found.append(max(0.0, low_m - TARGET_HEIGHT_M))
         return min(found)
-
-    def _may_be_climbing(self) -> bool:
-        """Tell whether the sender may send before it is as high as its first mission asks.
-
-        At a stated time it does not wait for that. No ascent is slower than a share of its climb
-        rate and some seconds at both ends.
-        """
-        if not sends_on_the_way_up(self.event):
-            return False
-        trigger, first = self.event.trigger, self.missions[0].altitude_m
-        if not isinstance(trigger, TimeTrigger) or self._is_redirected():
-            return True
-        climb_mps = _ASCENT_SHARE * self.limits.uav_climb_max_mps
-        up_s = most(first, 0.0, self.limits.uav_altitude_max_m) / climb_mps + _TAKES_OFF_S
-        return least(trigger.at_s, 0.0, 0.0) < up_s
 
     def _sunk_m(self, left_s: float) -> float:
         """Return how far the sender may have sunk so long after its last mission, metres."""
