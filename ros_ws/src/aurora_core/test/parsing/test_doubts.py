@@ -8,8 +8,9 @@ import pytest
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.data_files import read_data
-from aurora_core.parsing.doubts import bodies, clauses, flights, messages, narrated, times
+from aurora_core.parsing.doubts import bodies, clauses, deeds, flights, messages, narrated, times
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.spec.scenario import AgentAction
 from aurora_core.spec.vocabulary import ClauseStatus
 
 CONTEXT = ParseContext(landmark_names=('City Hall', 'Harbor Market'))
@@ -41,6 +42,15 @@ def _unread(prompt: str) -> list[str]:
 )
 def test_the_verbs_that_checks_look_for_are_keys_of_the_lexicon(keys: frozenset[str]) -> None:
     assert keys <= read_data('lexicon.yaml')['verbs'].keys()
+
+
+def test_an_action_of_a_uav_that_a_model_let_stop_is_no_stop_of_an_agent() -> None:
+    outcome = parse_offline('A drone hovers over City Hall. At 9 s a van stops.', CONTEXT)
+    assert outcome.spec is not None
+    (event,) = outcome.spec.events
+    stops = event.model_copy(update={'action': AgentAction(do='stop', agent='uav1')})
+    spec = outcome.spec.model_copy(update={'events': (stops,)})
+    assert list(deeds.stops_at_places(spec, ())) == []
 
 
 _TRACKS = 'A drone tracks a van at 40 m for 30 seconds'

@@ -25,8 +25,9 @@ def stops_at_places(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
         action = event.action
         if event.trigger is None or not isinstance(action, AgentAction) or action.do != 'stop':
             continue
+        agent = agents.get(action.agent)  # a UAV that a model lets stop is none of these
         for clause in _encoded(spec, event.id):
-            if _stops_there(agents[action.agent], clause):
+            if agent is not None and _stops_there(agent, clause):
                 yield clause.span
 
 
