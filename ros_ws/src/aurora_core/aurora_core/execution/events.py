@@ -362,9 +362,13 @@ class EventRunner:
             return True
         sender = event.action.sender
         machine = next((m for m in machines if m.plan.id == sender), None)
-        if machine is None or sends_on_the_way_up(event):
+        if machine is None:
             return True
-        if machine.ascended_tick is None or machine.landed:
+        if machine.landed:
+            return False
+        if sends_on_the_way_up(event):
+            return True
+        if machine.ascended_tick is None:
             return False
         missions = machine.plan.missions
         flown = [m for m in missions if not m.waits] or missions

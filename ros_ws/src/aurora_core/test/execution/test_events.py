@@ -426,6 +426,17 @@ def test_what_needs_no_sight_is_sent_when_it_is_due_while_the_uav_climbs(
         assert _sent(scene) == sent, at_s
 
 
+def test_who_has_landed_sends_nothing_at_a_stated_time(stage: Build, parameter: Make) -> None:
+    stated = {'provenance': Provenance.EXPLICIT, 'span': Span(start=0, end=1)}
+    at_s = parameter(200.0, 's').model_copy(update=stated)
+    send = SendMessage(do='send_message', sender='uav1', receiver='ego')
+    event = _event(TimeTrigger(on='time', at_s=at_s), send)
+    land = _event(NOW, UavAction(do='land', uav='uav1'), id='e2')
+    scene = stage(events=(event, land), links=(('uav1', 'ego'),))
+    scene.fly('uav1', 0.0, 0.0, 0.0).step(4100)
+    assert _sent(scene) == []
+
+
 def test_a_vehicle_sends_without_a_sight_rule(stage: Build, parameter: Make) -> None:
     send = SendMessage(do='send_message', sender='ego', receiver='van1')
     event = _distance('distance_below', parameter).model_copy(update={'action': send})
