@@ -9,8 +9,8 @@ import io
 import json
 import re
 import shutil
-from collections.abc import Callable
-from contextlib import chdir, redirect_stdout
+from collections.abc import Callable, Iterator
+from contextlib import chdir, contextmanager, redirect_stdout
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -18,6 +18,7 @@ from typing import Any
 import pytest
 
 from aurora_cli import installed
+from aurora_cli.commands import verify
 from aurora_cli.main import run_command_line
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_path
 
@@ -71,12 +72,33 @@ def edited(path: Path, change: Callable[[dict[str, Any]], Any]) -> None:
     path.write_text(json.dumps(document))
 
 
+@contextmanager
+def judged_once() -> Iterator[None]:
+    """Have what is judged in here judged once, however often it is told."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ('load_bag', 'verify_found'):
+            patch.setattr(verify, name, first_answer(getattr(verify, name)))
+        yield
+
+
+def first_answer(function: Callable[..., Any]) -> Callable[..., Any]:
+    answers: list[Any] = []
+
+    def answer(*arguments: object, **options: object) -> Any:
+        if not answers:
+            answers.append(function(*arguments, **options))
+        return answers[0]
+
+    return answer
+
+
 def said(call: Call, *arguments: str) -> SimpleNamespace:
     """What is said about a bag: code and heading are held to belong together, in text and JSON."""
-    plain = call('verify', *arguments)
+    with judged_once():
+        plain = call('verify', *arguments)
+        document = json.loads(call('verify', *arguments, '--json').out)
     first = plain.out.splitlines()[0]
     heading = first.partition('  ')[0]
-    document = json.loads(call('verify', *arguments, '--json').out)
     codes = {'VERIFIED': 0, 'MARGINS HOLD': 0, 'VIOLATED': 1, 'INCONCLUSIVE': 4}
     assert codes[heading.removeprefix('AS RECORDED: ')] == plain.code, first
     assert document['summary'] in first

@@ -7,7 +7,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextPath
+from matplotlib.textpath import text_to_path
 
 from aurora_core.report.scene import style
 
@@ -22,7 +22,8 @@ def text_width(text: str, size: float, *, bold: bool = False) -> float:
     if not text.strip():
         return 0.3 * size * len(text)
     font = FontProperties(family=_FAMILY, weight='bold' if bold else 'normal')
-    return _HINTED * float(TextPath((0.0, 0.0), text, size=size, prop=font).get_extents().x1)
+    font.set_size(size)
+    return _HINTED * float(text_to_path.get_text_width_height_descent(text, font, False)[0])
 
 
 def wrapped(text: str, size: float, width: float, *, bold: bool = False) -> list[str]:
