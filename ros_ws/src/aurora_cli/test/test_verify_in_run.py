@@ -260,6 +260,8 @@ CHANGES: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
     'run id': ('manifest.json', lambda d: d.update(run_id='20260131T120000Z-0a1b2c')),
     'limits': ('report.json', lambda d: d['limits'].update(clearance_min_m=0.1)),
     'version': ('report.json', lambda d: d['versions'].update(aurora='0.0.9')),
+    'version not told': ('report.json', lambda d: d['versions'].pop('aurora')),
+    'ticks of the bag': ('report.json', lambda d: d['bags'][0].update(ticks=7)),
     'digest': ('report.json', lambda d: d['digests'].update(spec='0' * 64)),
     'digest of the graph': ('report.json', lambda d: d['bags'][0].update(graph_sha256='0' * 64)),
     'trace': ('report.json', lambda d: d['bags'][0].update(trace_sha256='0' * 64)),

@@ -355,7 +355,7 @@ class Frame:
 
     def leftovers(self) -> list[Span]:
         """Return what no construction understood, neighbours joined."""
-        loose = [(a.start, a.end) for a in self.adjuncts if not a.used and not self._is_neutral(a)]
+        loose = [_words(a) for a in self.adjuncts if not a.used and not self._is_neutral(a)]
         loose += self.flagged
         for noun in self.nouns():
             loose += noun.loose
@@ -387,6 +387,13 @@ class Frame:
             n.kind in _NEUTRAL_NOUNS or (n.kind is NounKind.PRONOUN and n.key == 'there')
             for n in adjunct.nouns
         )
+
+
+def _words(adjunct: Adjunct) -> tuple[int, int]:
+    """Where the words of an adjunct stand: of one put in by rewriting, those of its nouns."""
+    if adjunct.start != adjunct.end or not adjunct.nouns:
+        return adjunct.start, adjunct.end
+    return min(n.start for n in adjunct.nouns), max(n.end for n in adjunct.nouns)
 
 
 def _of_weather(atoms: Sequence[Atom], i: int) -> bool:

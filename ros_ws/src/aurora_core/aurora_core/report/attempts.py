@@ -7,7 +7,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from aurora_core.errors import BagError
+from aurora_core.agsg.message import read_agsg
+from aurora_core.errors import AuroraError, BagError
 from aurora_core.report.doubts import Doubt, altered, unknown
 from aurora_core.report.run_documents import Unreadable, read_document
 from aurora_core.report.run_folder import REPORT, StageFile
@@ -57,6 +58,17 @@ def _earlier(run: Path, entry: BagReport) -> Iterator[Doubt]:
     except BagError as err:
         yield unknown(f'{name}: {err}')
         return
-    found = trace_hashes(content.trace, content.world).trace_sha256
-    if found != entry.trace_sha256:
+    try:
+        graph = read_agsg(content.agsg_message)
+    except AuroraError as err:
+        yield unknown(f'{name}: {err}')
+        return
+    found = BagReport(
+        bag=entry.bag,
+        iteration=graph.iteration,
+        ticks=content.trace.ticks,
+        trace_sha256=trace_hashes(content.trace, content.world).trace_sha256,
+        graph_sha256=graph.sha256,
+    )
+    if found != entry:
         yield altered(f'{name} is not the attempt that {REPORT} lists')

@@ -277,9 +277,9 @@ def _report(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
         if entry.bag == name:
             hashes = bag.hashes
             yield from trace_doubts(bag.verdict, hashes.trace_sha256, entry.trace_sha256, REPORT)
-            yield from _differs(
-                f'{REPORT}, {name},', 'the graph', entry.graph_sha256, bag.agsg.sha256
-            )
+            where = f'{REPORT}, {name},'
+            yield from _differs(where, 'the graph', entry.graph_sha256, bag.agsg.sha256)
+            yield from _differs(where, 'ticks', entry.ticks, bag.content.trace.ticks)
     yield from _request(report, bag)
     yield from attempt_doubts(run, report, iteration)
     judged = _judged(report, listed)
@@ -314,6 +314,8 @@ def _beside(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
         yield unknown(page.why)
     # A page shows the bag that the run was judged by; another version lays it out otherwise.
     of_bag = report.trace is None or report.trace.bag == f'bag.{iteration}'
+    if 'aurora' not in report.versions:
+        yield unknown(f'{REPORT} does not tell the version that made its page')
     same = of_bag and report.versions.get('aurora') == AURORA_VERSION
     if same and not isinstance(page, Unreadable):
         from aurora_core.report.html import report_html

@@ -100,3 +100,10 @@ def test_whoever_an_unread_clause_names_takes_part() -> None:
     assert {agent.type.value for agent in outcome.spec.agents} == {'van', 'bus', 'truck'}
     unread = [c.text for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED]
     assert unread[0] == 'When a van hums at a bus'
+
+
+def test_words_that_are_taken_for_others_are_admitted_where_those_stand() -> None:
+    prompt = "Two roadside units get the drone's report 1 second after it has reached 60 m."
+    clauses = parse_offline(prompt, CONTEXT).clauses
+    unread = [c.text for c in clauses if c.status is ClauseStatus.NOT_ENCODED]
+    assert 'the drone' in unread

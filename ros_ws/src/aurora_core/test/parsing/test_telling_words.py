@@ -31,6 +31,10 @@ def _unread(prompt: str) -> list[str]:
         ('A drone hovers at 40 m for 20 s, lands, waits 10 s and takes off.', 'lands, waits'),
         ('A drone lands and then hovers over City Hall at 40 m.', 'lands and then hovers'),
         ('A drone hovers at 40 m for 20 s and repeats this.', 'repeats this'),
+        (
+            'A drone hovers over City Hall at 50 m for 60 s and its drift stays below 1.5 m.',
+            'drift',
+        ),
         ('A drone hovers at 40 m for 20 s, and so does another one at 60 m.', 'does'),
         ('A drone starts at 40 m and hovers over City Hall for 20 s.', 'starts at 40 m'),
         ('A drone, already in the air, hovers over City Hall.', 'already in the air'),

@@ -400,6 +400,11 @@ def _no_wind(spec: ScenarioSpec, clause: Clause) -> bool:
     return not told and spec.world.weather in _WINDLESS
 
 
+def _drift(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A bound on the drift of a hover."""
+    return any(c.quantity == QuantityName.HOVER_DRIFT for c in spec.conditions)
+
+
 def _lanes(spec: ScenarioSpec, clause: Clause) -> bool:
     """A pattern that goes to and fro."""
     return any(m.pattern is Pattern.LAWNMOWER for m in spec.missions if m.id in clause.ids)
@@ -454,6 +459,7 @@ CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'within': _within,
     'several': _several,
     'retries': _retries,
+    'drift': _drift,
 }
 
 

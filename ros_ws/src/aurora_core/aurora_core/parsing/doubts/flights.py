@@ -19,7 +19,7 @@ from aurora_core.parsing.doubts.clauses import (
     stretch,
     within,
 )
-from aurora_core.spec.parameter import Parameter, Provenance, Span
+from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AltitudeTrigger, Clause, ScenarioSpec, UavAction
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode, Pattern
@@ -36,6 +36,10 @@ _CLIMBS = frozenset({'ascend', 'descend'})
 # Who does nothing in the air, and what a distance is measured from.
 _GROUND = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO})
 _AWAY = ('from', 'away from')
+_KEPT = re.compile(
+    r'\b(?:hold|keep|kept|maintain|min|neither|never|no|none|not|remain|separat|stay)'
+)
+_REFUSED_M = 5.0  # a least separation that limits usually ask
 _APART = re.compile(r'\b(?:apart|away|close|closer|farther|further|near|nearer)\b')
 _STAYS = ('holds', 'keeps', 'remains', 'stays', 'waits')
 _AS_LONG = re.compile(r'(?:while|(?:as|so) long as)\b')
@@ -127,6 +131,21 @@ def flights_at_once(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
                 continue
             if {uavs[i] for i in flown[0]} & {uavs[i] for i in flown[1]}:
                 yield over(atom, verbs[-1] if k else verbs[1])
+
+
+def formations(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`hover 30 m apart`: no more than that, either; `keep them 30 m apart` asks for the least."""
+    for condition in spec.conditions:
+        exact = condition.value.bound is Bound.EXACTLY and condition.op in ('>', '>=')
+        if condition.quantity != QuantityName.SEPARATION or not exact:
+            continue
+        if condition.value.value < _REFUSED_M:
+            continue  # whatever it means, nobody may fly so: what is not read proves nothing
+        for clause in spec.clauses:
+            told = condition.id in clause.ids and clause.status is ClauseStatus.ENCODED
+            text = clause.text.lower()
+            if told and ' apart' in text and not _KEPT.search(text):
+                yield clause.span
 
 
 def flights_over_nothing(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
