@@ -145,6 +145,24 @@ _NEAR = 'when the van comes within 30 m of the ego car'
             'the ego car.',
             'passes on the alerts of',
         ),
+        (
+            'A drone hovers over City Hall at 40 m for 20 s and lands. After that a second drone '
+            'takes off and hovers over Harbor Market at 40 m.',
+            'takes off and hovers over Harbor',
+        ),
+        (
+            'When drone 2 has landed, drone 1 lands. Both hover over City Hall at 40 m and 60 m.',
+            'When drone 2 has landed',
+        ),
+        (
+            'When the drone descends below 20 m, the truck starts. The drone hovers over the '
+            'truck at 40 m for 15 s and then lands.',
+            'When the drone descends below 20 m',
+        ),
+        (
+            'The drone sees the ego car 80 percent of the time and hovers over City Hall at 60 m.',
+            'sees the ego car 80 percent',
+        ),
         ('Two drones hover 30 m apart at 45 m for 40 seconds.', 'hover 30 m apart'),
         ('A drone scans the front of City Hall between 10 m and 40 m.', 'scans the front of'),
         ('At 10 s a van changes to the far left lane.', 'changes to the far left'),
@@ -201,6 +219,8 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'Two drones hover over City Hall for 25 s, one at 50 m and one at 70 m.',
         'Two drones hover over City Hall at 40 m and 60 m and stay at least 15 m apart.',
         'A drone flies at 40 m for 30 s.',
+        'A drone hovers over City Hall at 40 m for 20 s. After that a second drone tracks a bus.',
+        'A drone hovers over City Hall for 20 s and lands.',
         'Two drones hover over City Hall at 40 m and 60 m. They stay 15 m apart.',
         'While a drone tracks a van, the van is always within 40 m of the ego car.',
         'A car turns left and a bus turns right.',

@@ -32,6 +32,15 @@ def _unread(prompt: str) -> list[str]:
         ('A drone lands and then hovers over City Hall at 40 m.', 'lands and then hovers'),
         ('A drone hovers at 40 m for 20 s and repeats this.', 'repeats this'),
         (
+            'A drone hovers over City Hall at 50 m; a second drone flies past it at a distance of '
+            'at least 20 m.',
+            'flies past',
+        ),
+        (
+            'The drone stays on the ground for 20 s and then hovers over City Hall at 50 m.',
+            'stays on the ground',
+        ),
+        (
             'A drone hovers over City Hall at 50 m for 60 s and its drift stays below 1.5 m.',
             'drift',
         ),

@@ -21,7 +21,13 @@ from aurora_core.parsing.doubts.clauses import (
 )
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import AltitudeTrigger, Clause, ScenarioSpec, UavAction
+from aurora_core.spec.scenario import (
+    AltitudeTrigger,
+    Clause,
+    DistanceTrigger,
+    ScenarioSpec,
+    UavAction,
+)
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode, Pattern
 
 # What tells of a flight: verbs, `an orbit`, `a patrol`, `back again`.
@@ -33,6 +39,7 @@ _MOVES = frozenset(
     {BehaviorKind.CIRCULATE, BehaviorKind.DRIVE, BehaviorKind.EMERGENCY_RUN, BehaviorKind.WALK}
 )
 _CLIMBS = frozenset({'ascend', 'descend'})
+_HEIGHTS = ('ascend', 'climb', 'descend', 'sink')
 # Who does nothing in the air, and what a distance is measured from.
 _GROUND = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO})
 _AWAY = ('from', 'away from')
@@ -145,6 +152,38 @@ def formations(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             told = condition.id in clause.ids and clause.status is ClauseStatus.ENCODED
             text = clause.text.lower()
             if told and ' apart' in text and not _KEPT.search(text):
+                yield clause.span
+
+
+def heights_as_distances(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`when the drone descends below 20 m` that became a distance from somebody."""
+    for event in spec.events:
+        if not isinstance(event.trigger, DistanceTrigger):
+            continue
+        for clause in spec.clauses:
+            if event.id not in clause.ids or clause.status is not ClauseStatus.ENCODED:
+                continue
+            cause = [a for a in within(atoms, clause.span) if a.end <= _value_at(event.trigger)]
+            if any(a.kind is AtomKind.VERB and a.words.startswith(_HEIGHTS) for a in cause[-2:]):
+                yield clause.span
+
+
+def _value_at(trigger: DistanceTrigger) -> int:
+    span = trigger.value_m.span
+    return -1 if span is None else span.start
+
+
+def seen_on_another_flight(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`sees the car 80 % of the time and hovers over the stadium`: from there, not on another."""
+    shares = [c for c in spec.conditions if c.quantity == QuantityName.VISIBLE_FRACTION]
+    for clause in spec.clauses:
+        if not any(c.id in clause.ids for c in shares):
+            continue
+        verbs = {a.key for a in within(atoms, clause.span) if a.kind is AtomKind.VERB}
+        for mission in spec.missions:
+            alone = all(m.uav != mission.uav or m is mission for m in spec.missions)
+            tracks = mission.mode is MissionMode.TRACK and mission.id in clause.ids
+            if tracks and not alone and verbs <= {'see', 'observe'}:
                 yield clause.span
 
 

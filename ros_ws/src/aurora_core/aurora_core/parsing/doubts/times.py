@@ -22,6 +22,7 @@ from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.scenario import (
     AgentAction,
     Clause,
+    Event,
     MissionDoneTrigger,
     ScenarioSpec,
     TimeTrigger,
@@ -36,6 +37,7 @@ _ONCE = MOMENTS | {'ascend', 'descend', 'land'}
 _STANDS = frozenset({'park', 'wait'})
 _NEARS = frozenset({'approach', 'reach'})
 _INTRANSITIVE = frozenset({'brake', 'cross', 'land', 'start', 'stop', 'turn_left', 'turn_right'})
+_AFTER_THAT = frozenset({'after that', 'afterwards', 'then', 'thereafter'})
 _LETS = frozenset({'lets', 'letting'})
 _LETS_PASS = frozenset({'cross', 'overtake'})
 # What stands for an act of its own behind `then`.
@@ -83,22 +85,35 @@ def let_pass(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 
 def landings(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`when the drone has landed` that became the end of its missions, many seconds before."""
-    waiting = {
-        e.id
-        for e in spec.events
-        if isinstance(e.trigger, MissionDoneTrigger)
-        and not (isinstance(e.action, UavAction) and e.action.lands)
-    }
+    waiting = {e.id: _lands_other(e) for e in spec.events if _awaits_another(e)}
+    landed = False
     for sentence in sentences(atoms):
         words = [a for a in sentence if a.kind in (AtomKind.VERB, AtomKind.HAPPENING)]
         clauses = [clause_of(spec, a) for a in words]
-        ended = any(a.key == 'finish' for a in sentence)
-        if ended or not any(waiting & set(c.ids) for c in clauses if c is not None):
+        told = {i for c in clauses if c is not None for i in c.ids} & waiting.keys()
+        lands = [a for a in words if a.key == 'land']
+        before, landed = landed, bool(lands)
+        if not told or any(a.key == 'finish' for a in sentence):
             continue
+        if before and sentence[0].words in _AFTER_THAT:
+            yield from (c.span for c in clauses[:1] if c is not None)
+        if len(lands) <= any(waiting[i] for i in told):
+            continue  # what it does then is to land
         then = {b.start for a, b in pairwise(sentence) if a.kind is AtomKind.THEN}
         for atom, clause in zip(words, clauses, strict=True):
             if atom.key == 'land' and clause is not None and atom.start not in then:
                 yield clause.span
+
+
+def _awaits_another(event: Event) -> bool:
+    """A UAV that lands when its own missions are over waits for nobody."""
+    if not isinstance(event.trigger, MissionDoneTrigger):
+        return False
+    return not _lands_other(event) or event.action.uav != event.trigger.uav
+
+
+def _lands_other(event: Event) -> bool:
+    return isinstance(event.action, UavAction) and event.action.lands
 
 
 def started_again(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
