@@ -56,6 +56,12 @@ def test_a_wait_is_carried_out(here: Path, prompt: str, condition: str) -> None:
         # No faster than the drone can fly, where nobody says how fast.
         ('A drone tracks a police car on an emergency run for 20 s.', 'police1.emergency_run'),
         ('Two motorcycles come from the opposite side of the ego car.', 'motorcycle2.placed'),
+        # Of two that drive beside one another, who is told no speed keeps level.
+        (
+            'A cyclist rides on the right of a car at 4 m/s. A drone tracks the car.',
+            'bicycle1.placed.kept',
+        ),
+        ('A motorcycle drives beside the ego car at 8 m/s.', 'motorcycle1.placed.kept'),
     ],
 )
 def test_what_is_said_of_somebody_is_done(here: Path, prompt: str, condition: str) -> None:

@@ -260,6 +260,8 @@ CHANGES: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
     'run id': ('manifest.json', lambda d: d.update(run_id='20260131T120000Z-0a1b2c')),
     'limits': ('report.json', lambda d: d['limits'].update(clearance_min_m=0.1)),
     'version': ('report.json', lambda d: d['versions'].update(aurora='0.0.9')),
+    'no verdict of the trace': ('report.json', lambda d: d['trace'].update(verdict=None)),
+    'bags not told': ('report.json', lambda d: d.update(bags=None)),
     'version not told': ('report.json', lambda d: d['versions'].pop('aurora')),
     'ticks of the bag': ('report.json', lambda d: d['bags'][0].update(ticks=7)),
     'digest': ('report.json', lambda d: d['digests'].update(spec='0' * 64)),

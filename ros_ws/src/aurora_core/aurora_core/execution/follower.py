@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Let vehicles follow others that are on another lane: change after them, and stay behind.
+"""Let vehicles keep to others that are on another lane: stay behind them, or level with them.
 
 The simulator's drivers mind only who is before them on their own lane. Once one of two has changed
-lane, the other one would pass it, or stay behind somebody else.
+lane, the other one would pass it, or stay behind somebody else; and who drives beside another one
+would leave it behind.
 """
 
 from __future__ import annotations
@@ -16,11 +17,18 @@ from aurora_core.execution.observe import Observation
 from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.quantities.actions import SPEED_ACTIONS
 from aurora_core.spec.own_events import keeps_to_lanes, own_events
-from aurora_core.spec.scenario import AgentAction, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.roster import Roster
+
+# Sides that a driver keeps to.
+_BESIDE = frozenset({Relation.BESIDE, Relation.LEFT, Relation.RIGHT})
+_NO_DRIVERS = frozenset({AgentType.PEDESTRIAN, AgentType.RSU})
+# Of two, who is not told a speed and cannot be as fast as the other one.
+_SLOW = frozenset({AgentType.BICYCLE})
 
 # A smaller change of speed is not worth a command (m/s).
 _NEW_MPS = 0.2
@@ -31,11 +39,12 @@ _AGAIN_S = 5.0
 
 @dataclass(slots=True)
 class _Following:
-    """One that follows another one.
+    """One that follows another one, or drives beside it.
 
     Attributes:
         row: Who follows.
         other: Whom.
+        abreast: It is to be level with the other one, and on a lane of its own.
         changes: It may change lane after the other one.
         paces: Its speed is nobody else's business.
         told_mps: Speed that it was told last, None when it drives by itself.
@@ -46,6 +55,7 @@ class _Following:
     other: int
     changes: bool
     paces: bool
+    abreast: bool = False
     told_mps: float | None = None
     ordered_s: float = -_AGAIN_S
 
@@ -73,7 +83,7 @@ class Follower:
         self._roster = roster
         self._lanes = lanes
         self._drive = drive
-        self._following = list(_followings(spec, roster))
+        self._following = [*_followings(spec, roster), *_companions(spec, roster)]
 
     def step(self, tick: int, seen: Observation, held: Collection[int]) -> list[GroundCommand]:
         """Return the commands of a tick.
@@ -89,6 +99,9 @@ class Follower:
             other = self._roster.agents[one.other].body_id
             here = seen.motion(self._roster.agents[one.row].body_id) and seen.motion(other)
             if one.row in held or here is None:
+                continue
+            if one.abreast:
+                commands += self._level(one, other, seen)
                 continue
             apart = self._lanes.are_on_two(one.row, one.other, seen)
             if apart and one.changes and now_s >= one.ordered_s + _AGAIN_S:
@@ -117,7 +130,19 @@ class Follower:
             one.told_mps = None
             return [self._drive(one.row)]
         wanted_m = self._style.follow_gap_m + self._style.follow_gap_s * lead_mps
-        wanted_mps = max(0.0, lead_mps + self._style.follow_gain_hz * (gap_m - wanted_m))
+        return self._at(one, lead_mps + self._style.follow_gain_hz * (gap_m - wanted_m))
+
+    def _level(self, one: _Following, other: str, seen: Observation) -> list[GroundCommand]:
+        """Return what keeps one level with another one, centre beside centre."""
+        beside_mps = seen.speed_mps(other)
+        ahead_m = seen.centre_ahead_m(one.row, other)
+        if beside_mps is None or abs(ahead_m) > self._style.follow_lost_m:
+            return []
+        return self._at(one, beside_mps + self._style.follow_gain_hz * ahead_m)
+
+    def _at(self, one: _Following, wanted_mps: float) -> list[GroundCommand]:
+        """Return the command of a speed, none where the last one does."""
+        wanted_mps = max(0.0, wanted_mps)
         if one.told_mps is not None and abs(wanted_mps - one.told_mps) < _NEW_MPS:
             return []
         one.told_mps = wanted_mps
@@ -147,3 +172,32 @@ def _followings(spec: ScenarioSpec, roster: Roster) -> Iterator[_Following]:
                     changes='change_lane' not in does,
                     paces=not does & (SPEED_ACTIONS | {'yield'}),
                 )
+
+
+def _companions(spec: ScenarioSpec, roster: Roster) -> Iterator[_Following]:
+    """Yield who is to drive beside somebody: of the two, who is told no speed, or is faster."""
+    drivers = {agent.id: agent for agent in spec.agents if agent.type not in _NO_DRIVERS}
+    acting = {
+        event.action.agent
+        for event in (*spec.events, *own_events(spec))
+        if isinstance(event.action, AgentAction) and event.action.do in SPEED_ACTIONS | {'yield'}
+    }
+    for agent in spec.agents:
+        for placed in agent.placements:
+            beside = placed.relation in _BESIDE and placed.kept_in_motion
+            pair = [drivers.get(name or '') for name in (agent.id, placed.of)]
+            free = [a for a in pair if a is not None and a.id not in acting and not _told(a)]
+            if not beside or None in pair or not free:
+                continue
+            rows = [roster.agent_index(a.id) for a in pair if a is not None]
+            slow = [a for a in free if a.type in _SLOW]
+            one = next((a for a in free if a not in slow), free[0])
+            row, other = rows if one is pair[0] else reversed(rows)
+            if row is not None and other is not None:
+                yield _Following(row=row, other=other, changes=False, paces=True, abreast=True)
+
+
+def _told(agent: GroundAgent) -> bool:
+    """Return whether the speed of an agent is stated."""
+    speeds = (b.speed_mps for b in agent.behaviors)
+    return any(s is not None and s.provenance is Provenance.EXPLICIT for s in speeds)

@@ -58,10 +58,17 @@ class Observation:
         index = self._roster.agent_index(other)
         if index is None or not instant.present(self._ground[index]):
             return 0.0
+        half_m = (self._roster.agents[row].length_m + self._roster.agents[index].length_m) / 2.0
+        return self.centre_ahead_m(row, other) - half_m
+
+    def centre_ahead_m(self, row: int, other: str) -> float:
+        """Return how far another agent is ahead of that of a row, centre to centre in metres."""
+        index = self._roster.agent_index(other)
+        if index is None or not instant.present(self._ground[index]):
+            return 0.0
         x, y, hx, hy = self._ground[row, : GroundColumn.HEADING_Y + 1].tolist()
         to_x, to_y = self._ground[index, : GroundColumn.Y + 1].tolist()
-        half_m = (self._roster.agents[row].length_m + self._roster.agents[index].length_m) / 2.0
-        return float((to_x - x) * hx + (to_y - y) * hy - half_m)
+        return float((to_x - x) * hx + (to_y - y) * hy)
 
     def position(self, name: str, *, on_road: bool = False) -> Point3 | None:
         """Return the reference point (x, y, z in m, ENU), None when the body is gone.

@@ -232,6 +232,9 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
             watched = mission if _comes_upon(spec, mission) else before
             return Release(on=ReleaseOn.CAPTURED, uav=watched.uav, mission=watched.id)
         if mission.mode is MissionMode.HOVER and not moves(spec, target):
+            followed = _followed_later(spec, mission)
+            if followed is not None:
+                return Release(on=ReleaseOn.CAPTURED, uav=followed.uav, mission=followed.id)
             return Release(on=ReleaseOn.OBSERVED, uav=mission.uav, mission=mission.id)
         last = _captured_last(spec, mission)
         return Release(on=ReleaseOn.CAPTURED, uav=last.uav, mission=last.id)
@@ -359,6 +362,13 @@ def _watched_from(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
     own = [m for m in spec.missions if m.uav == mission.uav]
     before = [m for m in own[: own.index(mission)] if begun_by(spec, m) is None]
     return before[-1] if before else None
+
+
+def _followed_later(spec: ScenarioSpec, hover: UavMission) -> UavMission | None:
+    """Return the flight in which a UAV follows whom it has hovered over, None if it does not."""
+    later = spec.missions[spec.missions.index(hover) + 1 :]
+    own = (m for m in later if (m.uav, m.target) == (hover.uav, hover.target))
+    return next((m for m in own if m.mode is MissionMode.TRACK), None)
 
 
 def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:

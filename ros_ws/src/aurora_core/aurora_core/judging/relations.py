@@ -17,6 +17,7 @@ from aurora_core.quantities import motion
 from aurora_core.quantities.angle import bearing_error_deg, compass_bearing_deg
 from aurora_core.quantities.lanes import edge_of, edges_with_several_lanes, inside_lanes_m
 from aurora_core.quantities.routes import planned_route
+from aurora_core.quantities.view import RunView
 from aurora_core.spec.vocabulary import Place, Relation
 from aurora_core.trace.layout import GroundColumn
 
@@ -99,9 +100,7 @@ def relation_slack(context: Context, condition: Condition, asked: Related) -> Fl
         beside = asked.offset_m - np.abs(offset - 2.0 * asked.offset_m)
         same_way = own[:, GroundColumn.HEADING_X] * hx + own[:, GroundColumn.HEADING_Y] * hy > 0.0
         return np.where(same_way, beside, np.minimum(beside, -offset))
-    dx = own[:, GroundColumn.X] - other[:, GroundColumn.X]
-    dy = own[:, GroundColumn.Y] - other[:, GroundColumn.Y]
-    along_m, left_m = dx * hx + dy * hy, dy * hx - dx * hy
+    along_m, left_m = _in_frame_of(own, other)
     # Who is right behind somebody is on neither side: one is beyond its flank.
     flank_m = view.body(b).entry.width_m / 2.0
     if relation is Relation.LEFT:
@@ -109,9 +108,28 @@ def relation_slack(context: Context, condition: Condition, asked: Related) -> Fl
     if relation is Relation.RIGHT:
         return -left_m - flank_m
     if relation is Relation.BESIDE:
-        half = (view.body(a).entry.length_m + view.body(b).entry.length_m) / 2.0
-        return half - np.abs(along_m)
+        return _half_lengths_m(view, a, b) - np.abs(along_m)
     raise VerificationError(f'condition {condition.id}: no signal for relation {relation}')
+
+
+def abreast_slack(context: Context, condition: Condition) -> FloatArray:
+    """Return by how much one agent is level with another one or within 45° of that, (T,) m."""
+    a, b = condition.of
+    view = context.view
+    along_m, left_m = _in_frame_of(view.rows(view.body(a)), view.rows(view.body(b)))
+    return np.maximum(_half_lengths_m(view, a, b), np.abs(left_m)) - np.abs(along_m)
+
+
+def _in_frame_of(own: FloatArray, other: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how far one is ahead of another one, and to its left, by its heading (m)."""
+    hx, hy = other[:, GroundColumn.HEADING_X], other[:, GroundColumn.HEADING_Y]
+    dx = own[:, GroundColumn.X] - other[:, GroundColumn.X]
+    dy = own[:, GroundColumn.Y] - other[:, GroundColumn.Y]
+    return dx * hx + dy * hy, dy * hx - dx * hy
+
+
+def _half_lengths_m(view: RunView, a: str, b: str) -> float:
+    return (view.body(a).entry.length_m + view.body(b).entry.length_m) / 2.0
 
 
 def lead_of(context: Context, a: str, b: str, *, ahead: bool) -> tuple[FloatArray, FloatArray]:

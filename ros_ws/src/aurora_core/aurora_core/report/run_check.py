@@ -266,6 +266,8 @@ def _report(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
         # Of an older version: it tells of the last bag alone.
         trace = report.trace
         listed = () if trace is None else (_of_trace(trace, report.digests.agsg, iteration),)
+        if report.versions.get('aurora') == AURORA_VERSION:
+            yield altered(f'{REPORT} lists no bags')
         if not any(entry.bag == name for entry in listed):
             yield unknown(f'{REPORT} is of an older version and tells nothing of {name}')
     elif not listed:
@@ -397,6 +399,8 @@ def _by_which_judged(
     trace = report.trace
     if trace is None or (trace.bag, trace.sha256) != (entry.bag, entry.trace_sha256):
         yield altered(f'{REPORT} contradicts itself about {entry.bag}')
+    elif trace.verdict is None and report.status not in CLAIMS_NOTHING:
+        yield altered(f'{REPORT} tells no verdict of {entry.bag}')
     else:
         yield from _claims(trace, entry, bag)
     spec = hashlib.sha256(bag.agsg.spec.canonical_json().encode('utf-8')).hexdigest()

@@ -98,6 +98,11 @@ def test_a_uav_is_there_before_what_changes_its_flight(agents: Agents) -> None:
     assert (found['ego'].release, found['ego'].release_uav) == (ReleaseOn.CAPTURED, 'uav1')
 
 
+def test_whom_a_uav_hovers_over_and_then_follows_sets_off_with_that(agents: Agents) -> None:
+    found = agents('A drone hovers over my car at 30 m for 20 s and then follows it for 30 s.')
+    assert found['ego'].release is ReleaseOn.CAPTURED
+
+
 def test_whom_a_uav_reports_is_on_its_street(agents: Agents) -> None:
     found = agents(
         'My car drives. A drone hovers over the intersection at 40 m. When a van exceeds 7 m/s, '

@@ -118,6 +118,23 @@ def test_relations_at_the_start(
     assert found.margin == pytest.approx(margin)
 
 
+@pytest.mark.parametrize(
+    ('x', 'y', 'margin'),
+    [
+        (0.0, 4.0, 0.2),
+        (-3.0, 4.0, 0.2),
+        (-100.0, 4.0, -0.8),
+        (100.0, 4.0, -0.8),
+        (0.0, -4.0, -0.8),
+    ],
+)
+def test_who_stays_on_a_side_is_level_with_the_other_one(
+    tb: ModuleType, x: float, y: float, margin: float
+) -> None:
+    found = _results(tb, _placed(tb, Relation.LEFT, x, y, kept_in_motion=True))
+    assert found['car1.placed.kept'].margin == pytest.approx(margin)
+
+
 def test_an_oncoming_car_faces_the_other_way(tb: ModuleType) -> None:
     case = _placed(tb, Relation.ONCOMING, 30.0, 4.0)
     case.run.agents[0].heading = (-1.0, 0.0)

@@ -29,7 +29,12 @@ from aurora_core.judging.evaluation import (
 )
 from aurora_core.judging.quantities.placement import near_m, offset_m, placed_distance_m
 from aurora_core.judging.quantity import OfMission, Quantity
-from aurora_core.judging.relations import RELATION_WORDS, bearing_error, relation_slack
+from aurora_core.judging.relations import (
+    RELATION_WORDS,
+    abreast_slack,
+    bearing_error,
+    relation_slack,
+)
 from aurora_core.judging.shares import share_of
 from aurora_core.knowledge.limits import Tolerance
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
@@ -63,6 +68,9 @@ class RelationFraction(Quantity):
         if isinstance(ticks, Missing):
             return ticks
         values = relation_slack(context, condition, self)
+        if self.relation in (Relation.LEFT, Relation.RIGHT):
+            # Who drives on that side far ahead or behind does not drive beside it.
+            values = np.minimum(values, abreast_slack(context, condition))
         good = values >= 0.0 if self.relation is Relation.BESIDE else values > 0.0
         a, b = condition.of
         what = f'{a} was {RELATION_WORDS[self.relation]} {b}'
