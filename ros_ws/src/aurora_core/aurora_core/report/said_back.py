@@ -55,6 +55,7 @@ from aurora_core.spec.vocabulary import (
     BehaviorKind,
     LaneSide,
     MissionMode,
+    Place,
     Relation,
     Role,
 )
@@ -292,7 +293,7 @@ def _trigger(trigger: Trigger) -> str:
     match trigger:
         case DistanceTrigger(on=on, a=a, b=b, value_m=value):
             near = 'within' if on == 'distance_below' else 'beyond'
-            return f'{a} comes {near} {_number(value)} of {_place(b)}'
+            return f'{a} comes {near} {_number(value)} of {_place(b)}{_centres((a, b))}'
         case TimeTrigger(at_s=at):
             return f'{_number(at)} have passed'
         case AltitudeTrigger(uav=uav, value_m=value):
@@ -336,7 +337,8 @@ def _to_side(side: LaneSide | None) -> str:
 def _condition(stated: StatedCondition, spec: ScenarioSpec | None = None) -> str:
     whom = ' and '.join(map(_place, stated.of))
     unit = '' if stated.value.unit is Unit.ONE else f' {stated.value.unit.value}'
-    text = f'{stated.quantity.replace("_", " ")} of {whom}'
+    far = _centres(stated.of) if stated.quantity == QuantityName.DISTANCE else ''
+    text = f'{stated.quantity.replace("_", " ")} of {whom}{far}'
     if stated.quantity not in _YES_OR_NO or not stated.value.value:
         text += f': {OP_WORDS[stated.op]} {stated.value.value:.6g}{unit}'
     if stated.hold_s is not None:
@@ -348,6 +350,12 @@ def _condition(stated: StatedCondition, spec: ScenarioSpec | None = None) -> str
     uavs = set() if spec is None else {mission.uav for mission in spec.missions}
     flown = stated.quantity in _FLOWN and bool(uavs & set(stated.of))
     return f'{text}, on mission from capture on' if flown and not stated.by_s else text
+
+
+def _centres(of: Sequence[str]) -> str:
+    """Say how the distance of two bodies counts: not between their bumpers, as a gap does."""
+    places = any(':' in name or name in set(Place) for name in of)
+    return '' if places else ' (between their centres)'
 
 
 def _order(order: Order) -> str:
