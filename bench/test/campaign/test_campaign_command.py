@@ -58,7 +58,7 @@ def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
 def run(file: Path, out: Path, **options: Any) -> int:
     """Run a campaign of cheap work."""
     make = importlib.import_module('campaign_work').cheap
-    given = {'jobs': 2, 'dask': None, 'so_far': False, **options}
+    given = {'jobs': 1, 'dask': None, 'so_far': False, **options}
     return run_campaign(SimpleNamespace(file=file, out=out, **given), make)  # type: ignore[arg-type]
 
 
@@ -104,7 +104,7 @@ def test_a_killed_worker_costs_nothing(
 ) -> None:
     """Its run is tried again; one that kills twice is named, and the others are there."""
     file = plan_file(tmp_path / 'in', ('one', 'dies once', 'three', 'dies always', 'five'))
-    assert run(file, tmp_path / 'out', dask=dask) == 1
+    assert run(file, tmp_path / 'out', dask=dask, jobs=2) == 1
     assert '5 runs  quarantined 1' in capsys.readouterr().out
     found = json.loads((tmp_path / 'out' / 'runs.json').read_text())
     assert [k.split(':')[1] for k in found['quarantined']] == ['hover-903']
