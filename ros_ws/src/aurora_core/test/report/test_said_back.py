@@ -39,7 +39,8 @@ def _said(prompt: str) -> dict[str, ElementReport]:
         (
             'A drone tracks a van and alerts the ego car when the van comes within 20 m of it.',
             'e1',
-            'when van1 comes within 20 m of ego (between their centres), uav1 sends a message to ego',
+            'when van1 comes within 20 m of ego (between their centres), uav1 sends a message to '
+            'ego',
             '',
         ),
         (
