@@ -31,8 +31,9 @@ class LocalProcesses:
         self._pool.warm()
 
     def begin(self, candidate: Candidate) -> _Given | None:
-        """Give a candidate to a process that is ready."""
+        """Give a candidate to a process that is ready; one that has died gets a successor."""
         self._look(0.0)
+        self._pool.warm()
         return _Given(self, self._pool.give(candidate)) if self._pool.free else None
 
     def wait(self, number: int, seconds: float) -> Recorded | None:
