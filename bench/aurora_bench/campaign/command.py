@@ -23,7 +23,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.resumable.code import code_digest, files_digest
 from aurora_bench.resumable.files import PromptFile
 from aurora_bench.resumable.journal import Journal, JournalHead
-from aurora_bench.resumable.pool import Lost, Work
+from aurora_cli.pool import Lost, Work
 from aurora_core.document import canonical_json
 from aurora_core.report.versions import product_versions
 

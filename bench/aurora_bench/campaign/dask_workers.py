@@ -4,20 +4,16 @@
 
 from __future__ import annotations
 
-import faulthandler
-import logging
 from collections import deque
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
 from typing import Any, TypeVar
 
-import dask
-from distributed import Client, LocalCluster, as_completed
+from distributed import Client, as_completed
 
 from aurora_bench.campaign.pooled import Answers, Note
-from aurora_bench.resumable.pool import Lost, PoolError, Work
+from aurora_cli.dask_client import dask_client, do_task
+from aurora_cli.pool import Lost, Work
 
-LOCAL = 'local'
 T = TypeVar('T')
 R = TypeVar('R')
 
@@ -43,7 +39,7 @@ def on_dask(
     Raises:
         PoolError: Nobody answers at the address, or a worker has several threads.
     """
-    with _client(address, jobs) as client:
+    with dask_client(address, jobs) as client:
         again: list[int] = []
         for index, answer in _given_away(client, work, tasks, range(len(tasks)), limit_s):
             if isinstance(answer, Lost):
@@ -53,37 +49,6 @@ def on_dask(
                 yield index, answer
         for index in again:
             yield from _given_away(client, work, tasks, [index], limit_s)
-
-
-@contextmanager
-def _client(address: str, jobs: int) -> Iterator[Client]:
-    """Give a connection to a scheduler with fitting workers."""
-    with ExitStack() as stack:
-        # A scheduler of somebody else has a setting of its own.
-        stack.enter_context(dask.config.set({'distributed.scheduler.allowed-failures': 0}))
-        place: Any = address
-        try:
-            if address == LOCAL:
-                place = stack.enter_context(
-                    LocalCluster(
-                        n_workers=jobs,
-                        threads_per_worker=1,
-                        host='127.0.0.1',
-                        dashboard_address=None,
-                        silence_logs=logging.CRITICAL,
-                    )
-                )
-            client = stack.enter_context(Client(place))
-        except (OSError, ValueError) as err:
-            raise PoolError(
-                f'no scheduler answers at {address}: {err}', hint='start one with dask scheduler'
-            ) from err
-        if any(number != 1 for number in client.nthreads().values()):
-            raise PoolError(
-                'a worker has several threads, and a simulator needs a process of its own',
-                hint='start them with dask worker ADDRESS --nthreads 1',
-            )
-        yield client
 
 
 def _given_away(
@@ -97,7 +62,7 @@ def _given_away(
     def give() -> None:
         while waiting and len(running) < max(1, len(client.nthreads())):
             index = waiting.popleft()
-            future = client.submit(_done, work, tasks[index], limit_s, pure=False)
+            future = client.submit(do_task, work, tasks[index], limit_s, pure=False)
             running[future] = index
             finished.add(future)
 
@@ -110,23 +75,3 @@ def _given_away(
             yield index, Lost(why=f'{type(err).__name__}: {err}')
         future.release()
         give()
-
-
-def _done(work: Work[Any, Any], task: Any, limit_s: float) -> Any:
-    """Do one task in a worker's process."""
-    _prepare(work)
-    faulthandler.dump_traceback_later(limit_s, exit=True)
-    try:
-        return work(task)
-    finally:
-        faulthandler.cancel_dump_traceback_later()
-
-
-_prepared: list[str] = []
-
-
-def _prepare(work: Work[Any, Any]) -> None:
-    """Load what tasks need, once in each process."""
-    if repr(work) not in _prepared:
-        work.prepare()
-        _prepared.append(repr(work))

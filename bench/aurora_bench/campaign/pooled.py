@@ -12,7 +12,7 @@ from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from typing import TypeVar
 
-from aurora_bench.resumable.pool import Lost, Work, run_tasks
+from aurora_cli.pool import Lost, Work, run_tasks
 
 T = TypeVar('T')
 R = TypeVar('R')

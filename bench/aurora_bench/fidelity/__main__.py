@@ -21,8 +21,8 @@ from aurora_bench.results import ResultsError, markdown_table, write_results
 from aurora_bench.resumable.code import code_digest
 from aurora_bench.resumable.files import PromptFile, file_line, read_files
 from aurora_bench.resumable.journal import Journal, JournalError, JournalHead, journal_path
-from aurora_bench.resumable.pool import PoolError
 from aurora_bench.seeds import seeds_option
+from aurora_cli.pool import PoolError
 from aurora_core.errors import ConfigError
 from aurora_core.report.run_folder import json_text
 from aurora_core.report.versions import product_versions

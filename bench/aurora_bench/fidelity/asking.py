@@ -14,8 +14,8 @@ from pydantic import FiniteFloat
 from aurora_bench.fidelity.answer import Answer, answer
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.resumable.journal import Journal
-from aurora_bench.resumable.pool import Lost, run_tasks
 from aurora_cli.installed import installed
+from aurora_cli.pool import Lost, run_tasks
 from aurora_core.document import Document
 from aurora_core.errors import ConfigError
 from aurora_core.pipeline.stages import RunRequest

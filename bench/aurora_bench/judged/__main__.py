@@ -23,7 +23,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, Table, markdown_table, write_results
-from aurora_bench.resumable.pool import Lost, run_tasks
+from aurora_cli.pool import Lost, run_tasks
 
 # Searching a place for a crowd takes long on a slow machine.
 _LIMIT_S = 600.0

@@ -28,7 +28,7 @@ from aurora_bench.repair.tables import (
 from aurora_bench.results import markdown_table, write_results
 from aurora_bench.resumable.code import code_digest
 from aurora_bench.resumable.journal import Journal, JournalError, JournalHead, journal_path
-from aurora_bench.resumable.pool import Lost, run_tasks
+from aurora_cli.pool import Lost, run_tasks
 from aurora_core.repair.settings import load_repair_settings
 from aurora_core.report.versions import product_versions
 

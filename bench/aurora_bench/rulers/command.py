@@ -22,7 +22,6 @@ from aurora_bench.results import ResultsError, markdown_table, write_results
 from aurora_bench.resumable.code import code_digest
 from aurora_bench.resumable.files import PromptFile, file_line, read_files, verdict_line
 from aurora_bench.resumable.journal import Journal, JournalError, JournalHead, journal_path
-from aurora_bench.resumable.pool import PoolError, Work
 from aurora_bench.rulers.anywhere import place_names, places_of_maps
 from aurora_bench.rulers.readback import read_back_line
 from aurora_bench.rulers.summary import (
@@ -37,6 +36,7 @@ from aurora_bench.rulers.summary import (
 )
 from aurora_bench.rulers.trial import JudgedTrial, Trial, judged_trials, trials_of
 from aurora_bench.seeds import seeds_option
+from aurora_cli.pool import PoolError, Work
 from aurora_core.errors import AuroraError, ConfigError, MapError
 from aurora_core.knowledge.map_folders import list_maps
 from aurora_core.report.run_folder import json_text

@@ -13,9 +13,9 @@ from pydantic import FiniteFloat
 
 from aurora_bench.prompts.format import AnnotatedPrompt, Category, Feasibility
 from aurora_bench.resumable.files import PromptFile
-from aurora_bench.resumable.pool import Lost, Work, run_tasks
 from aurora_bench.rulers.checking import Said
 from aurora_bench.rulers.readback import ReadBack
+from aurora_cli.pool import Lost, Work, run_tasks
 from aurora_core.document import Document
 
 

@@ -14,6 +14,7 @@ from typing import Any, Literal, Self
 from aurora_cli.answers import Run, check_facts, run_request
 from aurora_cli.collector import relax_collector
 from aurora_cli.installed import installed
+from aurora_cli.local_engine import ENGINE
 from aurora_core.errors import error_class
 from aurora_core.execution.faults import Fault
 from aurora_core.outcomes.parse import ParseOutcome
@@ -31,13 +32,7 @@ from aurora_uav_sim.parameters import installed_model
 
 _RUNS = Path('runs')
 # What the first run of a process would have to load.
-_ENGINE = (
-    'aurora_cli.local_run',
-    'aurora_core.trace.bag_reader',
-    'aurora_sumo_bridge.sumo_client',
-    'aurora_uav_bridge.mavlink_client',
-    'aurora_uav_sim.mavlink_server',
-)
+_NEEDED = (*ENGINE, 'aurora_core.trace.bag_reader')
 _MAP = 'downtown'
 _SMALL = 'A drone hovers over the ego car for 5 seconds.'
 
@@ -61,7 +56,7 @@ class Session:
     def __enter__(self) -> Self:
         self._collector = gc.get_threshold()
         relax_collector()
-        for name in _ENGINE:
+        for name in _NEEDED:
             import_module(name)
         self.check(_SMALL)
         installed().parts(_MAP)

@@ -18,6 +18,7 @@ from aurora_core.errors import AuroraError
 from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline import functions
+from aurora_core.pipeline.beside import Beside
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.facts import RunFacts
@@ -119,6 +120,7 @@ def run_request(
     root: Path,
     control: RunControl,
     tell: Callable[[str], None] = lambda _: None,
+    beside: Beside | None = None,
 ) -> Run:
     """Run a request with its engine; without the page, unless the graph made it.
 
@@ -127,6 +129,7 @@ def run_request(
         root: Folder of the run folders, absolute.
         control: Progress and cancel.
         tell: Takes what the user should know meanwhile.
+        beside: Who executes candidates of repair beside this process, in the local engine.
 
     Raises:
         AuroraError: The run folder cannot be written, or the graph cannot be reached.
@@ -136,10 +139,16 @@ def run_request(
 
         report, path = run_over_ros(request, root, control, tell)
         return Run(report=report, folder=path)
-    return run_stages(request, LocalStages(installed()), root, control)
+    return run_stages(request, LocalStages(installed()), root, control, beside)
 
 
-def run_stages(request: RunRequest, stages: LocalStages, root: Path, control: RunControl) -> Run:
+def run_stages(
+    request: RunRequest,
+    stages: LocalStages,
+    root: Path,
+    control: RunControl,
+    beside: Beside | None = None,
+) -> Run:
     """Run a request with stages of this process; without the page.
 
     Args:
@@ -147,6 +156,7 @@ def run_stages(request: RunRequest, stages: LocalStages, root: Path, control: Ru
         stages: What is called.
         root: Folder of the run folders, absolute.
         control: Progress and cancel.
+        beside: Who executes candidates of repair beside this process; None: nobody.
 
     Raises:
         AuroraError: The run folder cannot be written.
@@ -162,6 +172,7 @@ def run_stages(request: RunRequest, stages: LocalStages, root: Path, control: Ru
         versions=manifest['versions'],
         manifest=manifest,
         outputs=write_report,
+        beside=beside,
     )
     done = Run(report=report, folder=folder.path)
     # The bag that the report is about, when it was the last one to be read.

@@ -23,6 +23,14 @@ from aurora_core.trace.definitions import message_definitions
 from aurora_llm.parse import read_prompt
 from aurora_llm.revise import revised_by_models
 
+# What an execution imports; whoever stays warm imports it before.
+ENGINE = (
+    'aurora_cli.local_run',
+    'aurora_sumo_bridge.sumo_client',
+    'aurora_uav_bridge.mavlink_client',
+    'aurora_uav_sim.mavlink_server',
+)
+
 
 class LocalStages:
     """`Stages` in one process: the clients of the bridges, the simulator's bytes in memory.

@@ -82,6 +82,14 @@ Repair = Annotated[
     int | None,
     typer.Option(min=0, metavar='N', help='Runs that repair may spend (see config/repair.yaml).'),
 ]
+Jobs = Annotated[
+    int | None,
+    typer.Option(min=1, metavar='J', help='Processes that execute candidates of repair.'),
+]
+Dask = Annotated[
+    str | None,
+    typer.Option(metavar='ADDRESS', help='Scheduler whose workers do so; local: one of its own.'),
+]
 NoRepair = Annotated[bool, typer.Option('--no-repair', help='End with the first verdict.')]
 RunOrBag = Annotated[str, typer.Argument(metavar='RUN_OR_BAG', help='Run folder, run id or bag.')]
 Iteration = Annotated[
@@ -122,6 +130,8 @@ def run_prompt(
     ] = False,
     repair: Repair = None,
     no_repair: NoRepair = False,
+    jobs: Jobs = None,
+    dask: Dask = None,
     fault: Annotated[
         list[str] | None,
         typer.Option(metavar='JSON', help='Inject a run-time fault (for tests; repeatable).'),
@@ -141,6 +151,7 @@ def run_prompt(
     """Run a prompt through the whole chain and say what came of it."""
 
     def command() -> int:
+        from aurora_cli.beside.chosen import Elsewhere
         from aurora_cli.commands.run import run_command
         from aurora_cli.requests import RunOptions
 
@@ -156,6 +167,7 @@ def run_prompt(
             allow_relax=allow_relax,
             repair=0 if no_repair else repair,
             faults=tuple(fault or ()),
+            elsewhere=Elsewhere(jobs=jobs, dask=dask),
         )
         if seeds is not None:
             if picture:
@@ -221,15 +233,19 @@ def verify_bag(
 def repair_run(
     run_or_bag: RunOrBag,
     repair: Repair = None,
+    jobs: Jobs = None,
+    dask: Dask = None,
     out: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
     as_json: Json = False,
 ) -> None:
     """Realise a recorded, violated request otherwise, in a run of its own."""
 
     def command() -> int:
+        from aurora_cli.beside.chosen import Elsewhere
         from aurora_cli.commands.repair import repair_command
 
-        return repair_command(run_or_bag, repair, out, as_json=as_json)
+        elsewhere = Elsewhere(jobs=jobs, dask=dask)
+        return repair_command(run_or_bag, repair, out, elsewhere, as_json=as_json)
 
     finish(command, as_json=as_json)
 

@@ -10,6 +10,7 @@ from typing import cast
 
 from pydantic import ValidationError
 
+from aurora_cli.beside.chosen import HERE, Elsewhere
 from aurora_cli.output import UsageProblem
 from aurora_core.errors import ConfigError, PromptError
 from aurora_core.execution.faults import Fault
@@ -39,6 +40,7 @@ class RunOptions:
     allow_relax: bool = False
     repair: int | None = None
     faults: tuple[str, ...] = ()
+    elsewhere: Elsewhere = HERE
 
 
 def checked(options: RunOptions) -> RunRequest:
@@ -55,6 +57,8 @@ def checked(options: RunOptions) -> RunRequest:
         raise UsageProblem(f'--transcripts: there is no folder {options.transcripts}')
     if options.engine not in ('local', 'ros'):
         raise UsageProblem(f'--engine is local or ros, found {options.engine}')
+    if options.engine == 'ros' and options.elsewhere != HERE:
+        raise UsageProblem('--jobs and --dask are for candidates of the local engine')
     try:
         check_seed(options.seed)
     except ValueError as err:

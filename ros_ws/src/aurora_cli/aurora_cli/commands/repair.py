@@ -7,6 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from aurora_cli.answers import Run, run_stages
+from aurora_cli.beside.chosen import Elsewhere, chosen
 from aurora_cli.installed import installed
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.local_engine import LocalStages
@@ -47,7 +48,9 @@ class RecordedStages(LocalStages):
         return understood(self.known, outcome, reader=spec.reader)
 
 
-def repair_command(run_or_bag: str, budget: int | None, out: Path, *, as_json: bool) -> int:
+def repair_command(
+    run_or_bag: str, budget: int | None, out: Path, elsewhere: Elsewhere, *, as_json: bool
+) -> int:
     """Repair a recorded run in a run of its own, and return the exit code.
 
     The first realisation is made again, which shows that the recording can be: same trace hash.
@@ -56,6 +59,7 @@ def repair_command(run_or_bag: str, budget: int | None, out: Path, *, as_json: b
         run_or_bag: Run folder, run id or bag of a violated run.
         budget: Co-simulations beside that one; None: as the configuration says.
         out: Folder of the run folders.
+        elsewhere: Who executes the candidates.
         as_json: Print the report as one JSON document.
 
     Raises:
@@ -65,9 +69,14 @@ def repair_command(run_or_bag: str, budget: int | None, out: Path, *, as_json: b
     with quiet_stdout():
         content, recorded = load_bag(find_bag(run_or_bag, 0 if _is_run(run_or_bag) else None).bag)
         request = _request(known, content, recorded, budget)
-        with Interrupts() as interrupts, RunProgress() as progress:
+        stages = RecordedStages(known, recorded)
+        with (
+            Interrupts() as interrupts,
+            chosen(elsewhere) as beside,
+            RunProgress() as progress,
+        ):
             control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
-            done = run_stages(request, RecordedStages(known, recorded), out.absolute(), control)
+            done = run_stages(request, stages, out.absolute(), control, beside)
     _tell(done, trace_sha256(content.trace, content.world))
     if as_json:
         print_json(done.report)

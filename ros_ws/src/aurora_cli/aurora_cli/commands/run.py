@@ -7,6 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from aurora_cli.answers import Run, new_folder, run_request
+from aurora_cli.beside.chosen import chosen
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.output import (
     BROKEN,
@@ -54,9 +55,13 @@ def run_command(
         if isinstance(ready, PromptError):
             done = _unreadable(request, raw, ready, root)
         else:
-            with Interrupts() as interrupts, RunProgress(quiet=quiet) as progress:
+            with (
+                Interrupts() as interrupts,
+                chosen(options.elsewhere) as beside,
+                RunProgress(quiet=quiet) as progress,
+            ):
                 control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
-                done = run_request(ready, root, control, lambda text: say(f'aurora: {text}'))
+                done = run_request(ready, root, control, _say, beside)
     if as_json:
         print_json(done.report)
         say(f'aurora: run folder {done.folder}')
@@ -66,6 +71,10 @@ def run_command(
     if (picture or not done.has_page) and not _page_written(done, picture=picture):
         return BROKEN
     return int(exit_code(done.status))
+
+
+def _say(text: str) -> None:
+    say(f'aurora: {text}')
 
 
 def _page_written(done: Run, *, picture: bool) -> bool:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from aurora_cli.answers import Run, run_request
+from aurora_cli.beside.chosen import chosen
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
 from aurora_cli.progress import RunProgress
@@ -63,7 +64,7 @@ def seeds_command(
     request = with_prompt(first, prompt_bytes(argument, prompt_file))
     if isinstance(request, PromptError):
         raise UsageProblem(f'--seeds needs a prompt that can be read: {request.message}')
-    runs = _run_all(request, count, options.out.absolute(), quiet=quiet)
+    runs = _run_all(request, count, options, quiet=quiet)
     statuses = [run.status for run in runs]
     if as_json:
         print_json({'runs': [_row(run) for run in runs], **_summary(statuses, count)})
@@ -80,16 +81,17 @@ def worst_exit_code(statuses: Sequence[Status], *, all_run: bool) -> int:
     return int(next((code for code in _WORST_FIRST if code in codes), ExitCode.OK))
 
 
-def _run_all(request: RunRequest, count: int, root: Path, *, quiet: bool) -> list[Run]:
+def _run_all(request: RunRequest, count: int, options: RunOptions, *, quiet: bool) -> list[Run]:
     done: list[Run] = []
-    with quiet_stdout(), Interrupts() as interrupts:
+    root = options.out.absolute()
+    with quiet_stdout(), Interrupts() as interrupts, chosen(options.elsewhere) as beside:
         for run_id in close_unfinished(root):
             say(f'aurora: closed the unfinished run {run_id} as error')
         for seed in range(request.seed, request.seed + count):
             one = request.model_copy(update={'seed': seed})
             with RunProgress(stages=False, quiet=quiet) as progress:
                 control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
-                run = run_request(one, root, control, lambda text: say(f'aurora: {text}'))
+                run = run_request(one, root, control, lambda text: say(f'aurora: {text}'), beside)
             done.append(run)
             if not quiet:
                 said = run.status.value.replace('_', ' ').upper()

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from itertools import islice
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -23,6 +24,8 @@ from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan, Step
 from aurora_core.outcomes.verdict import VerdictStatus
+from aurora_core.pipeline.ahead import Ahead
+from aurora_core.pipeline.beside import Beside
 from aurora_core.pipeline.history import learned_of, remember, remember_lessons
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.relaxing import relaxed
@@ -87,6 +90,7 @@ class _Run:
         control: RunControl,
         clock: SteadyClock,
         facts: RunFacts,
+        beside: Beside | None,
     ) -> None:
         self.request = request
         self.stages = stages
@@ -95,6 +99,8 @@ class _Run:
         self.control = control
         self.clock = clock
         self.facts = facts
+        self.beside = beside
+        self.ahead: Ahead | None = None
         self.taught: RepairEpisode | None = None
         self._dt_s = 0.0
         self._timing: dict[str, float] = {}
@@ -143,6 +149,8 @@ class _Run:
         if grounding.agsg is None:
             return
         self.keep(grounding.agsg)
+        if self.beside is not None and self.budget():
+            self.beside.prepare()
         first = self.execute(grounding, 0, proposal)
         if first.verdict.status is VerdictStatus.VIOLATED:
             self.repair(graph, first)
@@ -175,6 +183,8 @@ class _Run:
                 outcome = self.stages.ground(graph, self.request)
                 self.note(grounding=outcome)
                 return outcome
+            if self.ahead is not None:
+                return self.ahead.ground(graph, plan)
             return self.stages.ground(graph, self.request, plan)
 
     def place(self, graph: Agsg) -> tuple[GroundingOutcome, Proposal | None]:
@@ -201,9 +211,13 @@ class _Run:
         self.folder.write_stage(StageFile.SCHEDULE, grounded.iteration, grounded.texts.schedule)
 
     def execute(
-        self, grounding: GroundingOutcome, iteration: int, proposal: Proposal | None = None
+        self,
+        grounding: GroundingOutcome,
+        iteration: int,
+        proposal: Proposal | None = None,
+        next_ones: Iterator[Agsg] | None = None,
     ) -> Realisation:
-        """Run in lockstep and judge the trace."""
+        """Run in lockstep and judge the trace; `next_ones`: what may be executed ahead."""
         graph = grounding.agsg
         assert graph is not None  # who found no place has nothing to execute
         bag = self.folder.bag_path(iteration)
@@ -215,7 +229,7 @@ class _Run:
             cancelled=self.control.cancelled,
         )
         with self.stage('execute'):
-            result = self.stages.execute(graph, bag, self.request, inner)
+            result = self.executed(graph, bag, inner, next_ones)
             execution = self._execution(result, bag.name)
             self.note(execution=execution, iterations=iteration + 1)
             made = BagReport(
@@ -239,6 +253,15 @@ class _Run:
             verdict=verdict,
         )
 
+    def executed(
+        self, graph: Agsg, bag: Path, control: RunControl, next_ones: Iterator[Agsg] | None
+    ) -> ExecutionResult:
+        """Execute beside this process where that can be, else here."""
+        found = None
+        if self.ahead is not None and next_ones is not None:
+            found = self.ahead.execute(graph, bag, control, next_ones)
+        return found or self.stages.execute(graph, bag, self.request, control)
+
     def repair(self, graph: Agsg, first: Realisation) -> None:
         """Realise a violated request otherwise, until it holds or the budget is spent.
 
@@ -251,16 +274,23 @@ class _Run:
         known = {'learned': taught.moves, 'errors': taught.errors}
         past = [first.attempt.model_copy(update=known)]
         tries = self.known.repair.groundings if budget else 0
+        # What a model would revise is not asked of it before its turn.
+        if self.beside is not None and self.request.model == 'offline':
+            basis = self.known.basis
+            run_id = self.folder.run_id
+            self.ahead = Ahead(self.beside, self.stages, self.request, run_id, basis)
         try:
             while tries and len(made) <= budget and made[-1].verdict.status in _GO_ON:
                 tries -= 1
                 self._share = (len(made) - 1) / budget, 1.0 / budget
-                if not self.attempt(graph, made, past):
+                if not self.attempt(graph, made, past, tries):
                     break
         except (_Cancelled, KeyboardInterrupt):
             self._drop(len(made))
             raise
         finally:
+            if self.ahead is not None:
+                self.ahead.drop()
             best = max(made, key=lambda r: r.attempt.rank)
             self.note(grounding=best.grounding, execution=best.execution, verdict=best.verdict)
             self.note(iterations=len(made))
@@ -293,12 +323,14 @@ class _Run:
             return self.request.repair
         return 0 if self.request.faults else self.known.repair.unasked
 
-    def attempt(self, graph: Agsg, made: list[Realisation], past: list[Attempt]) -> bool:
-        """Try the next proposal; False when there is none."""
+    def attempt(
+        self, graph: Agsg, made: list[Realisation], past: list[Attempt], tries: int
+    ) -> bool:
+        """Try the next proposal; False when there is none. `tries`: how many may follow it."""
         iteration = len(made)
         best = max(made, key=lambda r: r.attempt.rank)
+        bag = self.folder.path / best.execution.bag
         with self.stage('repair'):
-            bag = self.folder.path / best.execution.bag
             proposal = self.stages.propose(best.graph, best.verdict, bag, tuple(past))
             self.record_calls(proposal)
         if proposal.outcome is not ProposalOutcome.EDITED:
@@ -317,7 +349,12 @@ class _Run:
         if self.facts.feasibility is not None:
             self.folder.write_stage(StageFile.FEASIBILITY, iteration, self.facts.feasibility)
         self.keep(grounding.agsg)
-        done = self.execute(grounding, iteration, proposal)
+        next_ones = None
+        if self.ahead is not None:
+            given = proposal, grounding
+            found = self.ahead.following(graph, bag, made, past, given, tries)
+            next_ones = islice(found, max(0, self.budget() - iteration))
+        done = self.execute(grounding, iteration, proposal, next_ones)
         made.append(done)
         past.append(done.attempt)
         told = repair_report(proposal, done.attempt, best)
@@ -363,6 +400,7 @@ def run(
     versions: Mapping[str, str] = MappingProxyType({}),
     manifest: Mapping[str, Any] = MappingProxyType({}),
     outputs: Callable[[RunReport, RunFolder], None] = write_outputs,
+    beside: Beside | None = None,
 ) -> RunReport:
     """Run a prompt and return its report, which is also written to the folder.
 
@@ -376,6 +414,7 @@ def run(
         versions: Versions of the product and of what decides results.
         manifest: Facts about the process, written first (an unfinished run is found by them).
         outputs: Writes what the run leaves for people; campaigns need no pictures.
+        beside: Processes that execute candidates of repair; the result is the same without.
 
     Raises:
         ReportError: The folder cannot be written.
@@ -395,7 +434,7 @@ def run(
         versions=versions,
         faults=request.faults,
     )
-    state = _Run(request, stages, known, folder, control, clock, facts)
+    state = _Run(request, stages, known, folder, control, clock, facts, beside)
     try:
         state.prepare()
         state.through()

@@ -213,6 +213,13 @@ _LATER = (
     _farther(1.0, 'who starts farther away comes later'),
     _higher(0.5, 'a longer climb takes its time'),
 )
+# What waits for a distance to be exceeded is helped by what takes two bodies apart.
+_GETS_FAR = (
+    _place(2.0, 'there what is waited for may come'),
+    _higher(1.0, _HEIGHT),
+    Help(name='standoff_m', direction=1, weight=1.0, because='who is apart stays apart'),
+    _farther(1.0, 'who starts nearer stays nearer'),
+)
 _DISTANCES: Mapping[tuple[Q, bool], tuple[Help, ...]] = MappingProxyType(
     {
         (Q.DISTANCE, True): (_lower(1.5, _HEIGHT), *_TOGETHER),
@@ -223,9 +230,17 @@ _DISTANCES: Mapping[tuple[Q, bool], tuple[Help, ...]] = MappingProxyType(
 )
 
 
-def helps(quantity: Q, op: str) -> tuple[Help, ...]:
-    """Return what helps a quantity to hold its comparison (`<`, `<=`, `>`, `>=`, `==`)."""
+def helps(quantity: Q, op: str, *, gets_far: bool = False) -> tuple[Help, ...]:
+    """Return what helps a quantity to hold its comparison (`<`, `<=`, `>`, `>=`, `==`).
+
+    Args:
+        quantity: Of the condition.
+        op: Of the condition.
+        gets_far: It waits for a distance to be exceeded, in vain.
+    """
     if quantity is Q.EVENT_TIME and op in ('>', '>='):
         return _LATER
+    if gets_far and HELPS.get(quantity) is _HAPPENS:
+        return _GETS_FAR
     of_distance = _DISTANCES.get((quantity, op in ('<', '<=')))
     return HELPS.get(quantity, ()) if of_distance is None else of_distance

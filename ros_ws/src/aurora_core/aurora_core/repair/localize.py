@@ -18,14 +18,13 @@ from types import MappingProxyType
 from aurora_core.agsg.influence import Influence, parameters_affecting
 from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.agsg import Agsg, AgsgParameter
-from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.repair import Implicated
 from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict
 from aurora_core.quantities.view import RunView
 from aurora_core.repair.experience import weight
-from aurora_core.repair.helps import ANCHOR, helps
+from aurora_core.repair.helps import ANCHOR, Help, helps
 from aurora_core.repair.lock import is_movable
-from aurora_core.repair.reach import out_of_reach
+from aurora_core.repair.reach import out_of_reach, waits_to_get_far
 from aurora_core.repair.shown import why_not_seen
 
 # How bad it is that a margin is missing (normalised), and what a mere consequence counts.
@@ -94,7 +93,10 @@ def localize(
         share = 1.0 if row.id in roots else _CONSEQUENCE
         influences = parameters_affecting(agsg, row.id)
         seen = None if context is None else why_not_seen(context, condition)
-        for name, direction, score, reason in _speaking(condition, row, influences, movable):
+        waits_far = waits_to_get_far(agsg, condition) is not None
+        in_vain = waits_far and row.margin is None
+        known_help = helps(condition.quantity, condition.op, gets_far=in_vain)
+        for name, direction, score, reason in _speaking(known_help, row, influences, movable):
             case = cases.setdefault((name, direction), _Case())
             known = weight(learned, condition.quantity.value, name, direction)
             if seen is not None:
@@ -102,7 +104,9 @@ def localize(
                 known *= seen.factors.get((last, direction), 1.0)
                 reason = f'{reason} ({seen.told})'
             case.add(share * score * known, row.id, reason, None)
-        for name, evidence in out_of_reach(agsg, condition).items():
+        # A distance that was exceeded is not out of reach.
+        proven = {} if waits_far and not in_vain else out_of_reach(agsg, condition)
+        for name, evidence in proven.items():
             if name in movable:
                 case = cases.setdefault((name, evidence.direction), _Case())
                 score = share * _severity(row) * _EVIDENCE
@@ -132,7 +136,7 @@ def _roots(rows: Sequence[ConditionResult]) -> frozenset[str]:
 
 
 def _speaking(
-    condition: Condition,
+    known_help: Sequence[Help],
     row: ConditionResult,
     influences: Sequence[Influence],
     movable: Mapping[str, AgsgParameter],
@@ -140,7 +144,7 @@ def _speaking(
     """Yield field, direction, score and reason of all that can be at fault for one condition."""
     severity = _severity(row)
     told = _told(row)
-    for help_ in helps(condition.quantity, condition.op):
+    for help_ in known_help:
         if help_.name == ANCHOR:
             score = severity * help_.weight / (1.0 + _ANCHOR_STEPS)
             yield ANCHOR, 0, score, f'{told}: {help_.because}'

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Evidence of geometry: values that keep somebody out of a distance that is asked of him.
 
-That is the distance at which something happens, or one to stay within. A distance to a UAV counts
-the height. Who tracks a body is as far from it as altitude and standoff are together, whatever the
-road; so is who hovers over a place from what passes there. A follower that starts behind the
-greatest gap is out of it until it has caught up; one that starts hardly farther away than it has
-to keep has nothing to lose when the other one slows down.
+That is the distance at which something happens, or one to stay within; or one to be exceeded. A
+distance to a UAV counts the height. Who tracks a body is as far from it as altitude and standoff
+are together, whatever the road; so is who hovers over a place from what passes there. A follower
+that starts behind the greatest gap is out of it until it has caught up; one that starts hardly
+farther away than it has to keep has nothing to lose when the other one slows down.
 """
 
 from __future__ import annotations
@@ -60,6 +60,9 @@ def out_of_reach(agsg: Agsg, condition: Condition) -> dict[str, Evidence]:
         return _too_far_behind(spec, condition, condition.arguments)
     if condition.quantity in _DISTANCES and condition.op in ('>', '>='):
         return _too_near(spec, condition)
+    far = waits_to_get_far(agsg, condition)
+    if far is not None:
+        return _stays_near(spec, far)
     asked = _waited_for(spec, condition) or _to_stay_within(condition)
     if asked is None:
         return {}
@@ -114,12 +117,51 @@ class _Asked:
     flat: bool = False
 
 
-def _waited_for(spec: ScenarioSpec, condition: Condition) -> _Asked | None:
+def waits_to_get_far(agsg: Agsg, condition: Condition) -> DistanceTrigger | None:
+    """Return the trigger of a condition's event where it waits for a distance to be exceeded."""
+    trigger = _trigger(agsg.realised_spec, condition)
+    return None if trigger is None or trigger.on != 'distance_above' else trigger
+
+
+def _trigger(spec: ScenarioSpec, condition: Condition) -> DistanceTrigger | None:
     event = next((e for e in spec.events if e.id == condition.arguments.event), None)
     trigger = None if event is None else event.trigger
-    if not isinstance(trigger, DistanceTrigger) or trigger.on != 'distance_below':
+    return trigger if isinstance(trigger, DistanceTrigger) else None
+
+
+def _waited_for(spec: ScenarioSpec, condition: Condition) -> _Asked | None:
+    trigger = _trigger(spec, condition)
+    if trigger is None or trigger.on != 'distance_below':
         return None
     return _Asked(of=(trigger.a, trigger.b), reach_m=trigger.value_m.value)
+
+
+def _stays_near(spec: ScenarioSpec, trigger: DistanceTrigger) -> dict[str, Evidence]:
+    """Return what keeps a UAV near the body that it tracks while more is waited for.
+
+    It lags behind and swings out, so a value that comes near that distance counts as well.
+    """
+    beyond_m, found = trigger.value_m.value, {}
+    for mission in spec.missions:
+        pair = {mission.uav, mission.target} == {trigger.a, trigger.b}
+        if mission.mode is not MissionMode.TRACK or not pair:
+            continue
+        away = mission.standoff_m
+        away_m, height_m = 0.0 if away is None else away.value, mission.altitude_m.value
+        here_m = hypot(height_m, away_m)
+        if here_m > beyond_m:
+            continue
+        path = f'missions/{mission.id}'
+        sides = [(f'{path}/altitude_m', mission.altitude_m, away_m)]
+        if away is not None:
+            sides.append((f'{path}/standoff_m', away, height_m))
+        for name, parameter, other_m in sides:
+            outside_m = beyond_m / _INSIDE
+            aim = min(parameter.high, sqrt(max(0.0, outside_m * outside_m - other_m * other_m)))
+            if aim > parameter.value and hypot(aim, other_m) >= _INSIDE * beyond_m:
+                told = f'it stays {here_m:.3g} m away, more than {beyond_m:.3g} m are waited for'
+                found[name] = Evidence(aim=aim, because=told, direction=1)
+    return found
 
 
 def _to_stay_within(condition: Condition) -> _Asked | None:

@@ -62,6 +62,8 @@ class RepairSettings(Document):
     unasked: NonNegativeInt
     groundings: PositiveInt
     placements: NonNegativeInt
+    jobs: PositiveInt
+    limit_s: PositiveFloat
     most_parameters: PositiveInt = Field(le=_MOST_PARAMETERS)
     singles: PositiveInt
     in_vain: PositiveInt

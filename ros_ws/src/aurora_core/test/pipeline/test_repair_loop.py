@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from aurora_core.errors import SpecError
+from aurora_core.errors import SimulatorError, SpecError
 from aurora_core.execution.faults import Fault
 from aurora_core.outcomes.agsg import Agsg, Stage
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
@@ -26,6 +27,7 @@ from aurora_core.outcomes.repair import (
 )
 from aurora_core.outcomes.verdict import ConditionResult, Verdict, VerdictStatus
 from aurora_core.pipeline import functions
+from aurora_core.pipeline.beside import Beside, Candidate, Pending, Recorded
 from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
@@ -117,7 +119,13 @@ class Clock:
         return 0.0
 
 
-def ran(stages: FakeStages, root: Path, repair: int | None = 5, **more: Any) -> RunReport:
+def ran(
+    stages: FakeStages,
+    root: Path,
+    repair: int | None = 5,
+    beside: Beside | None = None,
+    **more: Any,
+) -> RunReport:
     return run(
         RunRequest(**{'prompt': PROMPT, 'repair': repair, **more}),
         stages,
@@ -126,6 +134,7 @@ def ran(stages: FakeStages, root: Path, repair: int | None = 5, **more: Any) -> 
         RunControl(),
         Clock(),
         outputs=write_report,
+        beside=beside,
     )
 
 
@@ -337,3 +346,126 @@ def test_a_placed_run_that_is_violated_keeps_its_values_when_it_is_repaired(
     first, second = (plan for plan in stages.plans if plan is not None)
     assert {e.path for e in first.values} <= {e.path for e in second.values}
     assert 'It took 2 realisations' in report.summary
+
+
+class Traced(FakeStages):
+    """Its trace is that of the graph, whoever executes; counts what it executes itself."""
+
+    def __init__(self, *margins: float) -> None:
+        super().__init__(*margins)
+        self.executed: list[int] = []
+
+    def execute(
+        self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl
+    ) -> ExecutionResult:
+        self.executed.append(agsg.iteration)
+        found = super().execute(agsg, bag_directory, request, control)
+        return found.model_copy(update={'trace_sha256': agsg.sha256})
+
+
+class Workers:
+    """Execute beside a run, each one as long as nobody waits for it."""
+
+    def __init__(self, places: int, broken: bool = False) -> None:
+        self.places = places
+        self.broken = broken
+        self.given: list[Agsg] = []
+        self.dropped: list[int] = []
+        self.most = 0
+        self._at_work = 0
+
+    def prepare(self) -> None:
+        assert not self.given
+
+    def begin(self, candidate: Candidate) -> Pending | None:
+        self.given.append(candidate.graph)
+        self._at_work += 1
+        self.most = max(self.most, self._at_work)
+        return Handed(self, candidate)
+
+    def done(self) -> None:
+        self._at_work -= 1
+        if self.broken:
+            raise SimulatorError('the worker died')
+
+
+@dataclass
+class Handed:
+    workers: Workers
+    candidate: Candidate
+
+    def wait(self, seconds: float) -> Recorded | None:
+        if not seconds:
+            return None
+        self.workers.done()
+        graph = self.candidate.graph
+        result = ExecutionResult(
+            bag=Path('/elsewhere'),
+            ticks=3,
+            trace_sha256=graph.sha256,
+            motion_sha256='',
+            outcome='finished',
+        )
+        return Recorded(result=result, files={f'bag.{graph.iteration}_0.mcap': b'recorded'})
+
+    def drop(self) -> None:
+        self.workers._at_work -= 1
+        self.workers.dropped.append(self.candidate.graph.iteration)
+
+
+def told(report: RunReport) -> dict[str, Any]:
+    """Return what a report says of the run, without what it took."""
+    return report.model_dump(mode='json', exclude={'timing'})
+
+
+@pytest.mark.parametrize(
+    'margins',
+    [
+        (-0.5, HELD),
+        (-0.5, -0.5, -0.5, HELD),
+        (-0.5, -0.6, -0.2, -0.7, -0.3, -0.9),
+        (-0.5, -0.2, -0.2, -0.1, HELD),
+    ],
+)
+def test_any_number_of_processes_gives_the_same_run(
+    tmp_path: Path, margins: tuple[float, ...]
+) -> None:
+    alone = Traced(*margins)
+    expected = told(ran(alone, tmp_path / '1'))
+    for places in (1, 2, 4):
+        stages, workers = Traced(*margins), Workers(places)
+        root = tmp_path / f'{places} beside'
+        report = ran(stages, root, beside=workers)
+        assert told(report) == expected
+        assert names(root) == names(tmp_path / '1')
+        # The first one is executed by the run itself, all others by the workers.
+        assert stages.executed == [0]
+        assert workers.most <= places
+        assert max(graph.iteration for graph in workers.given) <= 5
+        simulated = [row.bag for row in report.repairs if row.bag is not None]
+        assert len(workers.given) == len(simulated) + len(workers.dropped)
+
+
+def test_who_is_of_no_avail_was_not_waited_for(tmp_path: Path) -> None:
+    """Candidates that hang on nothing but the place are executed while the one before is."""
+    workers = Workers(2)
+    report = ran(Traced(-0.5, -0.5, -0.5, HELD), tmp_path, beside=workers)
+    assert report.status is Status.VERIFIED
+    assert [graph.iteration for graph in workers.given] == [1, 2, 3, 4]
+    assert workers.dropped == [4]
+
+
+def test_what_a_worker_loses_is_executed_by_the_run(tmp_path: Path) -> None:
+    expected = told(ran(Traced(-0.5, -0.4, HELD), tmp_path / 'a'))
+    stages = Traced(-0.5, -0.4, HELD)
+    report = ran(stages, tmp_path / 'b', beside=Workers(2, broken=True))
+    assert told(report) == expected
+    assert stages.executed == [0, 1, 2]
+
+
+def test_no_model_is_asked_for_a_candidate_before_its_turn(tmp_path: Path) -> None:
+    workers = Workers(2)
+    recording = tmp_path / 'replies'
+    stages = Traced(-0.5, HELD)
+    ran(stages, tmp_path / 'runs', beside=workers, model=f'recorded:{recording}')
+    assert (stages.executed, workers.given) == ([0, 1], [])

@@ -11,6 +11,7 @@ from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.repair import RepairPlan, ValueEdit, with_values
 from aurora_core.pipeline.functions import ground_stage, parse_stage, understood
 from aurora_core.pipeline.knowledge import installed_knowledge
+from aurora_core.repair.helps import helps
 from aurora_core.repair.reach import out_of_reach
 from aurora_core.spec.quantity import QuantityName
 
@@ -113,3 +114,29 @@ def test_a_height_that_takes_most_of_a_distance_leaves_a_standoff_that_fits() ->
     found = evidence(grounded(31.0, 70.0))
     assert set(found) == {STANDOFF}
     assert hypot(31.0, found[STANDOFF]) < 40.0
+
+
+@pytest.mark.parametrize(
+    ('standoff_m', 'beyond', 'is_named'),
+    [(0.0, 60, True), (0.0, 400, False), (70.0, 60, False)],
+)
+def test_a_tracker_that_stays_near_is_named_where_a_greater_distance_is_waited_for(
+    standoff_m: float, beyond: int, is_named: bool
+) -> None:
+    prompt = (
+        'A drone tracks a van. When the distance between the drone and the van is larger than '
+        f'{beyond} meters, the drone alerts the ego car.'
+    )
+    graph = grounded(30.0, standoff_m, prompt)
+    [within] = [c for c in graph.conditions if c.id == 'e1.within']
+    found = out_of_reach(graph, within)
+    assert (STANDOFF in found) == is_named
+    if is_named:
+        assert found[STANDOFF].direction == 1
+        assert hypot(found[STANDOFF].aim, 30.0) > 0.7 * beyond
+
+
+def test_what_waits_in_vain_for_a_greater_distance_is_not_helped_by_a_smaller_one() -> None:
+    names = {(h.name, h.direction) for h in helps(QuantityName.EVENT_DELAY, '<=', gets_far=True)}
+    assert {('altitude_m', 1), ('standoff_m', 1)} <= names
+    assert not {('altitude_m', -1), ('standoff_m', -1)} & names

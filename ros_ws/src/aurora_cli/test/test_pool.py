@@ -7,12 +7,13 @@ from __future__ import annotations
 import importlib
 import multiprocessing
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from aurora_bench.resumable.pool import Lost, PoolError, run_tasks
+from aurora_cli.pool import Lost, Pool, PoolError, run_tasks
 
 LIMIT_S = 60.0
 
@@ -94,4 +95,22 @@ def test_who_stops_listening_ends_the_workers(squares: Any) -> None:
     next(answers)
     assert multiprocessing.active_children()
     answers.close()
+    assert not multiprocessing.active_children()
+
+
+def test_a_task_that_is_dropped_makes_room_for_the_next(squares: Any) -> None:
+    with closing(Pool(squares(), jobs=1, limit_s=LIMIT_S)) as pool:
+        pool.warm()
+        assert pool.free == 0
+        assert pool.look(LIMIT_S) == []
+        assert pool.free == 1
+        hanging, waiting, wanted = (pool.give(task) for task in (('hang', 1), ('', 2), ('', 3)))
+        assert pool.free == 0
+        pool.drop(waiting)
+        pool.drop(hanging)
+        found: list[Any] = []
+        while not pool.is_idle:
+            found += pool.look(LIMIT_S)
+        assert [(number, answer[0]) for number, answer in found] == [(wanted, 9)]
+        assert pool.free == 1
     assert not multiprocessing.active_children()

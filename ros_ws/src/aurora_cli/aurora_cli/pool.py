@@ -13,6 +13,7 @@ its place.
 from __future__ import annotations
 
 import faulthandler
+import math
 import multiprocessing
 import os
 import signal
@@ -20,11 +21,11 @@ import sys
 import time
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
-from typing import Any, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from aurora_core.document import Document
 from aurora_core.errors import AuroraError
@@ -41,7 +42,7 @@ _SPAWN = multiprocessing.get_context('spawn')
 class PoolError(AuroraError):
     """The workers cannot begin."""
 
-    default_component = 'bench'
+    default_component = 'workers'
 
 
 class Lost(Document):
@@ -70,7 +71,125 @@ class _Worker:
     process: BaseProcess
     connection: Connection
     deadline_s: float
-    task: int | None = None  # None: it prepares itself
+    task: int | None = None
+    is_ready: bool = False  # False: it prepares itself
+
+
+class Pool(Generic[T, R]):
+    """Workers that are given tasks one by one.
+
+    Nothing happens beside the caller: a worker that is done gets its next task in `look`.
+
+    Args:
+        work: What is done.
+        jobs: Most workers at a time.
+        limit_s: Wall seconds that a task may take.
+        clock: Steady seconds.
+    """
+
+    def __init__(
+        self,
+        work: Work[T, R],
+        *,
+        jobs: int,
+        limit_s: float,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._work = work
+        self._jobs = jobs
+        self._limit_s = limit_s
+        self._clock = clock
+        self._workers: list[_Worker] = []
+        self._waiting: deque[tuple[int, T]] = deque()
+        self._started = 0
+        self._given = 0
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no task is waiting or in work."""
+        return not self._waiting and all(w.task is None for w in self._workers)
+
+    @property
+    def free(self) -> int:
+        """How many tasks would be begun at once."""
+        ready = sum(w.is_ready and w.task is None for w in self._workers)
+        return max(0, ready - len(self._waiting))
+
+    def warm(self) -> None:
+        """Start all workers, before there are tasks."""
+        while len(self._workers) < self._jobs:
+            self._start()
+
+    def give(self, task: T) -> int:
+        """Take a picklable task and return its number, from 0 on."""
+        self._waiting.append((self._given, task))
+        self._given += 1
+        self._hand_out()
+        return self._given - 1
+
+    def look(self, timeout_s: float | None = None) -> list[tuple[int, R | Lost]]:
+        """Return number and result of what has ended; wait for it so long at most.
+
+        Raises:
+            PoolError: A worker could not prepare itself.
+        """
+        # Nobody is started for tasks that those who prepare themselves will take.
+        preparing = sum(not w.is_ready for w in self._workers)
+        while len(self._workers) < self._jobs and preparing < len(self._waiting):
+            self._start()
+            preparing += 1
+        ended: list[tuple[int, R | Lost]] = []
+        for worker in _ready(self._workers, timeout_s, self._clock):
+            answer = _answer(worker, self._limit_s, self._clock)
+            if answer is None:
+                continue
+            kind, value = answer
+            if not worker.is_ready and kind != 'ready':
+                raise PoolError(f'worker {worker.number} cannot begin: {value}')
+            index, worker.task = worker.task, None
+            worker.is_ready, worker.deadline_s = True, math.inf
+            if kind == 'lost':
+                self._remove(worker)
+            if index is not None:
+                ended.append((index, value if kind == 'done' else Lost(why=value)))
+        self._hand_out()
+        return ended
+
+    def drop(self, number: int) -> None:
+        """Forget a task; the worker that does it is ended, and another one takes its place."""
+        self._waiting = deque(row for row in self._waiting if row[0] != number)
+        for worker in [w for w in self._workers if w.task == number]:
+            self._remove(worker)
+            self._start()
+
+    def rest(self) -> None:
+        """End the workers that have nothing to do."""
+        if not self._waiting:
+            for worker in [w for w in self._workers if w.is_ready and w.task is None]:
+                self._remove(worker)
+
+    def close(self) -> None:
+        """End the workers at once, whatever they do."""
+        for worker in tuple(self._workers):
+            self._remove(worker)
+
+    def _start(self) -> None:
+        self._started += 1
+        deadline_s = self._clock() + _PREPARE_LIMIT_S
+        self._workers.append(_start(self._started, self._work, deadline_s))
+
+    def _hand_out(self) -> None:
+        for worker in self._workers:
+            if not self._waiting:
+                return
+            if worker.is_ready and worker.task is None:
+                worker.task, task = self._waiting.popleft()
+                worker.deadline_s = self._clock() + self._limit_s
+                _send(worker, task)
+
+    def _remove(self, worker: _Worker) -> None:
+        self._workers.remove(worker)
+        _end(worker)
 
 
 def run_tasks(
@@ -96,37 +215,13 @@ def run_tasks(
     Raises:
         PoolError: A worker could not prepare itself.
     """
-    waiting = deque(range(len(tasks)))
-    workers: list[_Worker] = []
-    started = 0
-    try:
-        while waiting or any(w.task is not None for w in workers):
-            # Nobody is started for tasks that those who prepare themselves will take.
-            preparing = sum(w.task is None for w in workers)
-            while len(workers) < jobs and preparing < len(waiting):
-                started += 1
-                preparing += 1
-                workers.append(_start(started, work, clock() + _PREPARE_LIMIT_S))
-            for worker in _ready(workers, clock):
-                answer = _answer(worker, limit_s, clock)
-                if answer is None:
-                    continue
-                kind, value = answer
-                index, worker.task = worker.task, None
-                if index is None and kind != 'ready':
-                    raise PoolError(f'worker {worker.number} cannot begin: {value}')
-                if kind != 'lost' and waiting:
-                    worker.task = waiting.popleft()
-                    worker.deadline_s = clock() + limit_s
-                    _send(worker, tasks[worker.task])
-                else:
-                    workers.remove(worker)
-                    _end(worker)
-                if index is not None:
-                    yield index, value if kind == 'done' else Lost(why=value)
-    finally:
-        for worker in workers:
-            _end(worker)
+    with closing(Pool(work, jobs=jobs, limit_s=limit_s, clock=clock)) as pool:
+        for task in tasks:
+            pool.give(task)
+        while not pool.is_idle:
+            ended = pool.look()
+            pool.rest()
+            yield from ended
 
 
 def _start(number: int, work: Work[Any, Any], deadline_s: float) -> _Worker:
@@ -149,12 +244,16 @@ def _send(worker: _Worker, task: object) -> None:
         worker.connection.send(task)
 
 
-def _ready(workers: list[_Worker], clock: Callable[[], float]) -> list[_Worker]:
+def _ready(
+    workers: list[_Worker], timeout_s: float | None, clock: Callable[[], float]
+) -> list[_Worker]:
     """Wait until a worker has something to say, has died or is late; return all such."""
     until_s = min((w.deadline_s for w in workers), default=clock())
+    if timeout_s is not None:
+        until_s = min(until_s, clock() + timeout_s)
     watched: list[Any] = [w.connection for w in workers]
     watched += [w.process.sentinel for w in workers]
-    wait(watched, timeout=max(0.0, until_s - clock()))
+    wait(watched, timeout=None if math.isinf(until_s) else max(0.0, until_s - clock()))
     now_s = clock()
     return [
         w
