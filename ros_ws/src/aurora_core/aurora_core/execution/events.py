@@ -25,7 +25,7 @@ from aurora_core.quantities.actions import (
     rest_s,
     takes_time,
 )
-from aurora_core.spec.events import actor_of, sends_on_the_way_up
+from aurora_core.spec.events import actor_of, reports_own_altitude
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import (
@@ -355,8 +355,7 @@ class EventRunner:
     ) -> bool:
         """A UAV reports only what it sees: after its ascent, when tracking after capture.
 
-        Once it has landed it reports nothing. What it needs to see nothing for it sends when that
-        is due.
+        Once it has landed it reports nothing. Its own altitude it reports when it is reached.
         """
         if not isinstance(event.action, SendMessage):
             return True
@@ -366,7 +365,7 @@ class EventRunner:
             return True
         if machine.landed:
             return False
-        if sends_on_the_way_up(event):
+        if reports_own_altitude(event):
             return True
         if machine.ascended_tick is None:
             return False

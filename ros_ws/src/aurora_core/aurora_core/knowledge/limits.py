@@ -26,6 +26,9 @@ Range = tuple[NotNegative, NotNegative]
 
 # Share of the greatest climb rate that a climb has on average, with its beginning and its end.
 _CLIMB_SHARE = 0.6
+# Ascents to 30, 40 and 50 m were flown at this share of it, and took so much longer at their two
+# ends (s).
+_ASCENT_SHARE, _RAMPS_S = 0.8, 1.0
 
 
 class _Table(BaseModel):
@@ -194,6 +197,11 @@ def hover_drift_limit_m(world: World, limits: Limits, tolerances: Tolerances) ->
 def climb_share_mps(limits: Limits) -> float:
     """Return the rate that a climb has on average where the vehicle climbs at the limit."""
     return _CLIMB_SHARE * limits.uav_climb_max_mps
+
+
+def ascent_s(height_m: float, limits: Limits) -> float:
+    """Return how long an ascent takes where nothing holds it up, about (s)."""
+    return _RAMPS_S + height_m / (_ASCENT_SHARE * limits.uav_climb_max_mps)
 
 
 def descent_share_mps(limits: Limits) -> float:
