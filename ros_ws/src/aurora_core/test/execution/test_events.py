@@ -469,6 +469,18 @@ SET = int(GroundCommandKind.SET_SPEED)
 DECELERATION = int(GroundCommandKind.SET_DECELERATION)
 
 
+def test_who_is_to_start_again_has_stood_for_the_time_of_a_stop(
+    stage: Build, parameter: Make
+) -> None:
+    at = [TimeTrigger(on='time', at_s=parameter(s, 's')) for s in (0.1, 0.5)]
+    stop, start = (AgentAction(do=do, agent='ego') for do in ('stop', 'start'))
+    scene = stage(events=(_event(at[0], stop), _event(at[1], start, id='e2')))
+    scene.put('ego', 0.0, speed=10.0).step(4)
+    scene.put('ego', 1.0, speed=0.0).step(60)
+    # It stands from tick 4 on, and 2 s are 40 ticks.
+    assert [(t, s) for t, s, _ in scene.notes(ScenarioEventKind.ACTION)] == [(2, 'e1'), (44, 'e2')]
+
+
 @pytest.mark.parametrize(
     ('action', 'speed', 'expected'),
     [
