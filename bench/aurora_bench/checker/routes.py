@@ -29,7 +29,8 @@ from aurora_bench.checker.flight import (
     leg_speed,
     level_of,
 )
-from aurora_bench.checker.recording import FloatArray
+from aurora_bench.checker.recording import BoolArray, FloatArray
+from aurora_bench.checker.scene import runs_of
 
 
 def navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
@@ -47,12 +48,30 @@ def navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
     step = max(1, round(0.2 / scene.dt_s))
     # A climb on the way changes the height of a route, not its course.
     xy = scene.xy(flight.uav)[flight.segment.start : flight.segment.end : step]
-    parts = [
-        altitude(flight, requirement, start),
-        _pattern(flight, requirement, xy),
-        leg_speed(flight, requirement, flight.ticks),
-    ]
-    return all_of([*parts, *_ends(flight, requirement), *avoided(flight, requirement)])
+    flown = all_of([altitude(flight, requirement, start), _pattern(flight, requirement, xy)])
+    # The way there may lead over what stands in between: what counts is the whole of the route.
+    later = _past_the_way(flight, np.abs(height - level) <= band, int(reached[0]))
+    if flown.outcome is not Outcome.HOLDS and later is not None:
+        rest = [
+            altitude(flight, requirement, flight.segment.start + later),
+            _pattern(flight, requirement, xy[later // step :]),
+        ]
+        flown = all_of(rest) if all(p.outcome is Outcome.HOLDS for p in rest) else flown
+    speed = leg_speed(flight, requirement, flight.ticks)
+    return all_of([flown, speed, *_ends(flight, requirement), *avoided(flight, requirement)])
+
+
+def _past_the_way(flight: Flight, level: BoolArray, reached: int) -> int | None:
+    """Return where a flight comes to its altitude again that it passed through on its way.
+
+    Args:
+        level: (ticks,) Whether it is at its altitude, from the beginning of the mission on.
+        reached: Where it first is.
+    """
+    if flight.segment.number == 0:
+        return None
+    away = next((b for a, b in runs_of(~level) if a >= reached), None)
+    return None if away is None or away >= len(level) else away
 
 
 def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> Judged:

@@ -295,6 +295,18 @@ def test_a_rectangle_left_open_does_not_hold(stage: Any) -> None:
     assert stage.says({**RECTANGLE, 'size_m': [120, 80]}) == 'does_not'
 
 
+@pytest.mark.parametrize(('down_s', 'outcome'), [(28.0, 'holds'), (40.0, 'does_not')])
+def test_the_way_to_a_rectangle_may_lead_over_what_stands_in_between(
+    stage: Any, down_s: float, outcome: str
+) -> None:
+    """It leaves its hover at 14 s, through the altitude of the route, which begins at 32 s."""
+    corners = [(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]
+    course = _route([(-180, 0), *corners], 40.0, 10.0, 14.0)
+    levels = ([14, 18, down_s, down_s + 4], [30, 60, 60, 40])
+    stage.uav('drone', lambda t: (*course(t)[:2], np.interp(t, *levels)), ends=(14.0, 53.0))
+    assert stage.says({**RECTANGLE, 'size_m': [60, 40]}) == outcome
+
+
 def test_a_rectangle_is_centred_on_its_place(make_stage: Any) -> None:
     for x, outcome in ((150.0, 'holds'), (180.0, 'does_not')):
         stage = make_stage()
