@@ -37,21 +37,22 @@ def trigger_story(context: Context, event_id: str, tick: int) -> str:
     return f'{event_id} was triggered {when}'
 
 
-def climbing_story(context: Context, event_id: str) -> str:
-    """Return, to end a sentence, that the sender of a message was not up when it was due."""
-    event, due = context.events.event(event_id), context.events.due_tick(event_id)
+def unready_story(context: Context, event_id: str) -> str:
+    """Return, to end a sentence, that who sends a message could not yet when it was due."""
+    times = context.events
+    event, due = times.event(event_id), times.due_tick(event_id)
     if event is None or due is None or not isinstance(event.action, SendMessage):
         return ''
-    if reports_own_altitude(event) or context.events.possible_tick(event_id, due) != due:
+    if reports_own_altitude(event) or times.possible_tick(event_id, due) != due:
         return ''
-    sender = event.action.sender
-    flight = context.events.rules.flights.get(sender)
-    up = None if flight is None else flight.ascent_end_tick
-    if up is None or up <= due:
+    ready, flight = times.reports_from(event, due), times.rules.flights.get(event.action.sender)
+    if ready is None or ready <= due or flight is None:
         return ''
+    climbs = flight.ascent_end_tick is None or flight.ascent_end_tick > due
+    what = 'was still climbing' if climbs else 'had not captured its target'
     return (
-        f'; {sender} was still climbing at {context.time_s(due):.2f} s, when it was due: it can '
-        f'send from {context.time_s(up):.2f} s on'
+        f'; {event.action.sender} {what} at {context.time_s(due):.2f} s, when it was due: it can '
+        f'send from {context.time_s(ready):.2f} s on'
     )
 
 

@@ -17,13 +17,15 @@ from aurora_core.spec.events import reports_own_altitude
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec, SendMessage, UavMission
-from aurora_core.spec.vocabulary import Pattern
+from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 # Share of the greatest rates at which a UAV is counted on to climb and to sink.
 _RATE_SHARE = 0.8
 # To its first mission and to the landing spot, and to every further mission (s).
 _AROUND_S = 20.0
 _BETWEEN_S = 10.0
+# From its ascent to the capture of what it tracks, where its start is beside the street (s).
+_CAPTURES_S = 4.0
 # What is left of open altitudes (m) and durations (s); between houses one is no lower.
 _LEAST_M = 15.0
 _LEAST_S = 10.0
@@ -86,7 +88,9 @@ def _sends_at_s(spec: ScenarioSpec, uav: str) -> float:
 
 
 def _up_in_time(own: list[UavMission], due_s: float, limits: Limits) -> list[UavMission]:
-    """Return missions of which the first one is low enough for an ascent until then."""
+    """Return missions of which the first one is low enough to have begun by then."""
+    if own and own[0].mode is MissionMode.TRACK:
+        due_s -= _CAPTURES_S
     late_s = ascent_s(own[0].altitude_m.value, limits) - due_s if own else 0.0
     if late_s <= 0.0:
         return own

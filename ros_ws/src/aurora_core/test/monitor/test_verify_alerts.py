@@ -204,7 +204,7 @@ def test_a_message_that_waits_for_the_ascent_says_from_when_on_it_can_be(tb: Mod
     found = _results(tb, case)['e1.time']
     assert not found.satisfied
     assert 'uav1 was still climbing at 3.00 s' in found.explanation
-    assert 'it can send from 7.' in found.explanation
+    assert 'it can send from 9.70 s on' in found.explanation
 
 
 def test_an_event_at_a_stated_time(tb: ModuleType) -> None:

@@ -99,14 +99,17 @@ def test_a_stated_bound_on_the_altitude_stays(parameter: Make) -> None:
     assert altitude_m >= 20.0
 
 
-def _sends_from_m(make: Make, at_s: float, *, stated_m: bool = False) -> float:
-    """Return the altitude (m) of who hovers and sends a message at a stated time."""
+def _sends_from_m(
+    make: Make, at_s: float, mode: MissionMode = MissionMode.HOVER, *, stated_m: bool = False
+) -> float:
+    """Return the altitude (m) of who hovers or tracks and sends a message at a stated time."""
     mission = UavMission(
         id='m1',
         uav='uav1',
-        mode=MissionMode.HOVER,
+        mode=mode,
         target='van1',
         altitude_m=make(30.0, explicit=stated_m),
+        standoff_m=make(0.0, explicit=False) if mode is MissionMode.TRACK else None,
         duration_s=make(30.0, 's', explicit=False),
     )
     event = Event(
@@ -130,3 +133,5 @@ def test_who_sends_soon_is_low_enough_to_be_up_by_then(parameter: Make) -> None:
     assert 15.0 < _sends_from_m(parameter, 6.0) <= 20.0
     assert _sends_from_m(parameter, 1.0) == 15.0
     assert _sends_from_m(parameter, 6.0, stated_m=True) == 30.0
+    # Who tracks sends once it has captured its target.
+    assert 15.0 < _sends_from_m(parameter, 10.0, MissionMode.TRACK) <= 20.0

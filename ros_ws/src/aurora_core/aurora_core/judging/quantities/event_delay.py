@@ -14,11 +14,11 @@ from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick
 from aurora_core.judging.happening import (
     EVENT_TOPICS,
     agent_action,
-    climbing_story,
     earliest_s,
     moment,
     never_happened,
     trigger_story,
+    unready_story,
 )
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
@@ -161,7 +161,7 @@ def _carried_out(
 ) -> Evaluation:
     value = context.time_s(action - trigger)
     story = f'{begin}; {event_id} was carried out {value:.2f} s later'
-    story += climbing_story(context, event_id)
+    story += unready_story(context, event_id)
     return at_tick(action, value, story, EVENT_TOPICS)
 
 
