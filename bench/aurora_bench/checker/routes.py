@@ -32,6 +32,13 @@ from aurora_bench.checker.flight import (
 from aurora_bench.checker.recording import BoolArray, FloatArray
 from aurora_bench.checker.scene import runs_of
 
+# A UAV gets faster at so much at least (m/s^2), and comes to its route in so long (s).
+GAINS_MPS2, TO_ROUTE_S = 1.5, 4.0
+# Speed on a route where none is stated.
+USUAL_MPS = 8.0
+# Nobody flies faster.
+FASTEST_MPS = 18.0
+
 
 def navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
     """Return whether the flown mission is the annotated route."""
@@ -94,8 +101,10 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
             own = requirement.get('radius_m')
             bodies = [t for t in flight.targets if scene.is_body(t)]
             if bodies:
-                return _orbit_of_body(flight, bodies, own, turns)
-            judged, centre = flights.orbit(xy, centres, radius and float(radius), turns)
+                return _orbit_of_body(flight, bodies, own, turns, _share(flight, requirement))
+            judged, centre = flights.orbit(
+                xy, centres, radius and float(radius), turns, _share(flight, requirement)
+            )
             return judged
         case 'street':
             return any_of([flights.street(xy, places, t) for t in flight.targets])
@@ -112,7 +121,7 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
         if scene.is_body(target):
             parts.append(_over_body(flight, target, centre))
         elif places.is_region(target):
-            parts.append(flights.over_road(xy, places))
+            parts.append(flights.over_road(xy, places, [float(s) for s in size or ()]))
         elif centre is not None and judged.outcome is Outcome.CANNOT_TELL:
             parts.append(cannot_tell('no clear pattern, so no clear centre'))
         elif centre is not None:
@@ -127,8 +136,26 @@ def _centres(places: Any, name: str) -> Sequence[Any]:
     return (*(s.xy for s in spots), *(np.array([m.x, m.y]) for m in middles))
 
 
+def _share(flight: Flight, requirement: Mapping[str, Any]) -> float:
+    """Return for what share of a circle a stated duration leaves time, 1 for a whole one."""
+    radius, lasts = requirement.get('radius_m'), requirement.get('duration_s')
+    if radius is None or lasts is None:
+        return 1.0
+    around = 2.0 * np.pi * float(radius)
+    speed = requirement.get('speed_mps')
+    top = FASTEST_MPS
+    if speed is not None:
+        top = min(top, float(speed) + limits.tolerance(limits.SPEED, float(speed)))
+    # It gets faster and brakes, both at less than it can.
+    if around / top + top / GAINS_MPS2 <= float(lasts):
+        return 1.0
+    usual = USUAL_MPS if speed is None else float(speed)
+    flown = float(lasts) - TO_ROUTE_S - usual / GAINS_MPS2
+    return float(min(1.0, max(0.0, usual * flown) / around))
+
+
 def _orbit_of_body(
-    flight: Flight, bodies: Sequence[str], radius: Any, turns: float | None
+    flight: Flight, bodies: Sequence[str], radius: Any, turns: float | None, most: float
 ) -> Judged:
     """Return whether a body is circled, where it stood at t = 0 or where it is."""
     scene = flight.scene
@@ -139,8 +166,8 @@ def _orbit_of_body(
     readings = []
     for body in bodies:
         moving = scene.xy(body)[whole]
-        readings.append(flights.orbit(uav, [scene.xy(body)[0]], size, turns)[0])
-        readings.append(flights.orbit(uav - moving, [np.zeros(2)], size, turns)[0])
+        readings.append(flights.orbit(uav, [scene.xy(body)[0]], size, turns, most)[0])
+        readings.append(flights.orbit(uav - moving, [np.zeros(2)], size, turns, most)[0])
     return any_of(readings)
 
 
