@@ -9,6 +9,7 @@ from math import ceil, hypot, inf, isfinite
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.operands import AT_LEAST, whole
 from aurora_core.feasibility.radio import check_radio
 from aurora_core.feasibility.rounds import check_rounds
 from aurora_core.feasibility.scene import check_scene
@@ -26,6 +27,7 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.uav_record import RESERVE, UavRecord
 from aurora_core.spec.events import TimeTrigger, reports_own_altitude
 from aurora_core.spec.parameter import Bound
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage, UavMission
 from aurora_core.spec.stated import is_stated, least, most
@@ -88,6 +90,7 @@ def doubts(
     yield from _fast_targets(spec, limits, uav)
     yield from _early_messages(spec, limits, tolerances)
     yield from _short_legs(spec, tolerances, uav)
+    yield from _never_slow(spec)
     if uav is not None:
         yield from _strong_wind(spec, limits, tolerances, uav)
         yield from _empty_batteries(spec, limits, uav)
@@ -263,4 +266,18 @@ def _short_legs(
             yield (
                 f'{mission.uav} needs {needed_m:.0f} m to get to {speed.value:g} m/s and to '
                 f'brake; no leg of {mission.id} is longer than {longest_m:g} m.'
+            )
+
+
+def _never_slow(spec: ScenarioSpec) -> Iterator[str]:
+    """A least speed for all of a route: it begins and ends at rest, and slows down for corners."""
+    for condition in spec.conditions:
+        flown = [m for m in spec.missions if condition.of == (m.uav,)]
+        asked = condition.quantity == QuantityName.SPEED and condition.op in AT_LEAST
+        if not asked or not whole(condition) or condition.value.value <= 0.0:
+            continue
+        if flown and all(m.mode is MissionMode.NAVIGATE for m in flown):
+            yield (
+                f'{flown[0].uav} begins and ends its route at rest and slows down for sharp '
+                f'corners: there it is slower than {condition.value.value:g} m/s.'
             )

@@ -189,6 +189,16 @@ def test_a_message_that_is_due_before_its_drone_is_up_is_doubted_or_refused() ->
     assert not any('is up at' in note for note in far.notes)
 
 
+def test_a_route_that_is_never_to_be_slow_is_doubted() -> None:
+    prompt = 'A drone flies a rectangle of 150 by 100 m at 50 m. The speed of the drone {}.'
+    never, at_most = (
+        _judged(prompt.format(words))
+        for words in ('always stays above 3 m/s', 'always stays below 12 m/s')
+    )
+    assert any('slower than 3 m/s' in note for note in never.notes)
+    assert not any('at rest' in note for note in at_most.notes)
+
+
 def test_a_vehicle_that_is_to_come_nearer_than_any_street_is_doubted() -> None:
     prompt = 'My car drives. When my car comes within {} m of City Hall, my car brakes.'
     near, far = (_judged(prompt.format(metres)) for metres in (20, 80))
