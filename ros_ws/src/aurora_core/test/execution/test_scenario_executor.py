@@ -114,7 +114,7 @@ def test_who_is_told_to_stop_or_slow_down_before_it_may_set_off_keeps_to_that(
     parameter: Callable[..., Any],
 ) -> None:
     value = None if do == 'stop' else parameter(most, 'm/s')
-    slower = AgentAction(do=do, agent='van1', value_mps=value)
+    slower = AgentAction(do=do, agent='van1', value_mps=value)  # type: ignore[arg-type]
     told = Event(id='e1', trigger=TimeTrigger(on='time', at_s=parameter(0.1, 's')), action=slower)
     scene = stage(releases={'van1': (ReleaseOn.CAPTURED, 'uav1')}, events=(told,))
     scene.put('van1', 100.0).fly('uav1', 0.0, 0.0, 30.0).step(4)
