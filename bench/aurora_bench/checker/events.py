@@ -146,10 +146,14 @@ def _answered(
     instants: tuple[Instant, ...],
 ) -> Happened:
     ready, at_last = _ready_s(case, requirement, action)
+    # A UAV sends nothing before its ascent is over, and a stated time does not wait for that.
+    binds = action.get('do') == 'send_message' and _is_timed(trigger)
     usable = tuple(
         i
         if i.late_s >= at_last
-        else Instant(max(i.early_s, ready), max(i.late_s, at_last), i.told_s)
+        else Instant(
+            max(i.early_s, ready), i.late_s if binds else max(i.late_s, at_last), i.told_s
+        )
         for i in instants
     )
     tried = [
@@ -176,6 +180,11 @@ def _answered(
         return _became(holds(why), best)
     first = f'not at the first time ({usable[0].late_s:.2f} s: {tried[0].judged.why})'
     return _became(cannot_tell(f'{why}, {first}'), best)
+
+
+def _is_timed(trigger: Mapping[str, Any]) -> bool:
+    """Tell whether it is stated when an event is due: a time, or how long after something."""
+    return trigger.get('at_s') is not None or trigger.get('after_s') is not None
 
 
 def _ready_s(
@@ -221,17 +230,10 @@ def _ready_s(
 
 
 def _on_the_way_up(case: Case, requirement: Requirement, action: Mapping[str, Any]) -> bool:
-    """Tell whether a UAV has to see nothing for what it sends, which it may do in its ascent.
-
-    It reports an altitude of its own, sends at a stated time or so long after something, or hands
-    on what it was told.
-    """
+    """Tell whether a UAV is to report an altitude of its own, which it may reach in its ascent."""
     trigger = requirement.get('trigger') or {}
-    if trigger.get('at_s') is not None or trigger.get('after_s') is not None:
-        return True
-    own = trigger.get('uav') if trigger.get('on') == 'altitude_reached' else None
-    own = trigger.get('by') if trigger.get('on') == 'message_received' else own
-    return bool(set(case.bodies(own)) & set(case.bodies(action.get('sender'))))
+    own = set(case.bodies(trigger.get('uav'))) & set(case.bodies(action.get('sender')))
+    return trigger.get('on') == 'altitude_reached' and bool(own)
 
 
 def _is_flown(requirement: Requirement, case: Case, uav: str) -> bool:

@@ -174,15 +174,20 @@ def _swept(angle: FloatArray) -> float:
 
 
 def orbit(
-    xy: FloatArray, centres: Sequence[FloatArray], radius_m: float | None, turns: float | None
+    xy: FloatArray,
+    centres: Sequence[FloatArray],
+    radius_m: float | None,
+    turns: float | None,
+    most: float = 1.0,
 ) -> tuple[Judged, FloatArray | None]:
     """Return whether a circle was flown round one of the centres (without one: anywhere).
 
     Args:
         radius_m: None: any one radius, kept within the tolerance.
-        turns: How many times round; None: once at least.
+        turns: How many times round; None: once at least, or as far as there is time.
+        most: For what share of a circle there is time.
     """
-    asked = 360.0 * (1.0 if turns is None else turns)
+    asked = 360.0 * (most if turns is None else turns)
     best, centre, why = -np.inf, None, 'no path'
     for middle in centres or [_fitted_centre(xy)]:
         delta = xy - middle
@@ -240,12 +245,20 @@ def street(xy: FloatArray, places: Places, name: str) -> Judged:
     return graded(flown >= 0.8 * lines.length / 2, flown >= 50.0, f'{flown:.0f} m along {name}')
 
 
-def over_road(xy: FloatArray, places: Places) -> Judged:
-    """Return whether one leg of a path lies over a carriageway."""
+def over_road(xy: FloatArray, places: Places, size: Sequence[float] = ()) -> Judged:
+    """Return whether one leg of a path lies over a carriageway.
+
+    Args:
+        size: Sides of the pattern: what the first leg has beyond one is the way there.
+    """
     turns = corners(xy)
     road = places.carriageway()
     shares = []
-    for i, j in itertools.pairwise(turns):
+    legs = list(itertools.pairwise(turns))
+    if legs:
+        left = np.linalg.norm(xy[turns[1]] - xy[: turns[1] + 1], axis=1)
+        legs += [(int(np.argmax(left <= s)), turns[1]) for s in size if 0.0 < s < left[0]]
+    for i, j in legs:
         points = xy[i : j + 1 : max(1, (j - i) // 40)]
         if np.linalg.norm(xy[j] - xy[i]) > 10.0:
             inside = shapely.distance(road, shapely.points(points)) <= limits.WAYPOINT_M

@@ -29,7 +29,15 @@ from aurora_bench.checker.flight import (
     leg_speed,
     level_of,
 )
-from aurora_bench.checker.recording import FloatArray
+from aurora_bench.checker.recording import BoolArray, FloatArray
+from aurora_bench.checker.scene import runs_of
+
+# A UAV gets faster at so much at least (m/s^2), and comes to its route in so long (s).
+GAINS_MPS2, TO_ROUTE_S = 1.5, 4.0
+# Speed on a route where none is stated.
+USUAL_MPS = 8.0
+# Nobody flies faster.
+FASTEST_MPS = 18.0
 
 
 def navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
@@ -47,12 +55,30 @@ def navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
     step = max(1, round(0.2 / scene.dt_s))
     # A climb on the way changes the height of a route, not its course.
     xy = scene.xy(flight.uav)[flight.segment.start : flight.segment.end : step]
-    parts = [
-        altitude(flight, requirement, start),
-        _pattern(flight, requirement, xy),
-        leg_speed(flight, requirement, flight.ticks),
-    ]
-    return all_of([*parts, *_ends(flight, requirement), *avoided(flight, requirement)])
+    flown = all_of([altitude(flight, requirement, start), _pattern(flight, requirement, xy)])
+    # The way there may lead over what stands in between: what counts is the whole of the route.
+    later = _past_the_way(flight, np.abs(height - level) <= band, int(reached[0]))
+    if flown.outcome is not Outcome.HOLDS and later is not None:
+        rest = [
+            altitude(flight, requirement, flight.segment.start + later),
+            _pattern(flight, requirement, xy[later // step :]),
+        ]
+        flown = all_of(rest) if all(p.outcome is Outcome.HOLDS for p in rest) else flown
+    speed = leg_speed(flight, requirement, flight.ticks)
+    return all_of([flown, speed, *_ends(flight, requirement), *avoided(flight, requirement)])
+
+
+def _past_the_way(flight: Flight, level: BoolArray, reached: int) -> int | None:
+    """Return where a flight comes to its altitude again that it passed through on its way.
+
+    Args:
+        level: (ticks,) Whether it is at its altitude, from the beginning of the mission on.
+        reached: Where it first is.
+    """
+    if flight.segment.number == 0:
+        return None
+    away = next((b for a, b in runs_of(~level) if a >= reached), None)
+    return None if away is None or away >= len(level) else away
 
 
 def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> Judged:
@@ -75,8 +101,10 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
             own = requirement.get('radius_m')
             bodies = [t for t in flight.targets if scene.is_body(t)]
             if bodies:
-                return _orbit_of_body(flight, bodies, own, turns)
-            judged, centre = flights.orbit(xy, centres, radius and float(radius), turns)
+                return _orbit_of_body(flight, bodies, own, turns, _share(flight, requirement))
+            judged, centre = flights.orbit(
+                xy, centres, radius and float(radius), turns, _share(flight, requirement)
+            )
             return judged
         case 'street':
             return any_of([flights.street(xy, places, t) for t in flight.targets])
@@ -93,7 +121,7 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
         if scene.is_body(target):
             parts.append(_over_body(flight, target, centre))
         elif places.is_region(target):
-            parts.append(flights.over_road(xy, places))
+            parts.append(flights.over_road(xy, places, [float(s) for s in size or ()]))
         elif centre is not None and judged.outcome is Outcome.CANNOT_TELL:
             parts.append(cannot_tell('no clear pattern, so no clear centre'))
         elif centre is not None:
@@ -108,8 +136,26 @@ def _centres(places: Any, name: str) -> Sequence[Any]:
     return (*(s.xy for s in spots), *(np.array([m.x, m.y]) for m in middles))
 
 
+def _share(flight: Flight, requirement: Mapping[str, Any]) -> float:
+    """Return for what share of a circle a stated duration leaves time, 1 for a whole one."""
+    radius, lasts = requirement.get('radius_m'), requirement.get('duration_s')
+    if radius is None or lasts is None:
+        return 1.0
+    around = 2.0 * np.pi * float(radius)
+    speed = requirement.get('speed_mps')
+    top = FASTEST_MPS
+    if speed is not None:
+        top = min(top, float(speed) + limits.tolerance(limits.SPEED, float(speed)))
+    # It gets faster and brakes, both at less than it can.
+    if around / top + top / GAINS_MPS2 <= float(lasts):
+        return 1.0
+    usual = USUAL_MPS if speed is None else float(speed)
+    flown = float(lasts) - TO_ROUTE_S - usual / GAINS_MPS2
+    return float(min(1.0, max(0.0, usual * flown) / around))
+
+
 def _orbit_of_body(
-    flight: Flight, bodies: Sequence[str], radius: Any, turns: float | None
+    flight: Flight, bodies: Sequence[str], radius: Any, turns: float | None, most: float
 ) -> Judged:
     """Return whether a body is circled, where it stood at t = 0 or where it is."""
     scene = flight.scene
@@ -120,8 +166,8 @@ def _orbit_of_body(
     readings = []
     for body in bodies:
         moving = scene.xy(body)[whole]
-        readings.append(flights.orbit(uav, [scene.xy(body)[0]], size, turns)[0])
-        readings.append(flights.orbit(uav - moving, [np.zeros(2)], size, turns)[0])
+        readings.append(flights.orbit(uav, [scene.xy(body)[0]], size, turns, most)[0])
+        readings.append(flights.orbit(uav - moving, [np.zeros(2)], size, turns, most)[0])
     return any_of(readings)
 
 

@@ -149,17 +149,12 @@ def _sight(case: Case, trigger: Mapping[str, Any]) -> Fired:
         for target in case.things(trigger.get('target')):
             seen = visible(scene, observer, target)
             ever += float(seen.sum()) * scene.dt_s
+            # A UAV looks out once it is up, not from the ground nor in its ascent.
+            start = ascent_end_tick(scene, observer) if scene.bodies[observer].is_uav else 0
             if seeing:
-                ready = np.ones(len(seen), dtype=bool)
-                if scene.bodies[observer].is_uav:
-                    # A UAV reports what it sees once it is up, not from the ground.
-                    ready &= scene.airborne(observer)
+                ready = np.arange(len(seen)) >= start
                 found += edges(case, seen & ready, STEP_S)
-                ascent = ascent_end_tick(scene, observer) if scene.bodies[observer].is_uav else 0
-                if ascent and seen[ascent]:
-                    found.append(Instant(0.0, float(scene.times[ascent])))
             else:
-                start = ascent_end_tick(scene, observer) if scene.bodies[observer].is_uav else 0
                 lost = ~seen & scene.present(target) if scene.is_body(target) else ~seen
                 landing = landing_tick(scene, observer) if scene.bodies[observer].is_uav else None
                 lost[:start] = False

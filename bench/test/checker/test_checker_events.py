@@ -276,12 +276,15 @@ def test_a_landmark_is_as_far_as_it_stands(make_stage: Any) -> None:
         assert stage.says(asked) == outcome
 
 
-@pytest.mark.parametrize(('sent', 'outcome'), [(6.2, 'holds'), (10.2, 'does_not')])
-def test_a_message_at_a_stated_time_waits_for_no_ascent(
-    stage: Any, sent: float, outcome: str
+@pytest.mark.parametrize(
+    ('at', 'sent', 'outcome'),
+    [(6, 6.2, 'does_not'), (6, 10.2, 'does_not'), (10, 10.2, 'holds'), (9, 9.2, 'does_not')],
+)
+def test_a_message_at_a_stated_time_is_sent_then_and_not_in_the_ascent(
+    stage: Any, at: float, sent: float, outcome: str
 ) -> None:
     _talk(stage, sent, latency=0.1)  # it is up at 10 s
-    assert stage.says(_event({'on': 'time', 'at_s': 6}, SEND)) == outcome
+    assert stage.says(_event({'on': 'time', 'at_s': at}, SEND)) == outcome
 
 
 def test_a_trigger_that_never_fires_does_not_hold(stage: Any) -> None:
@@ -348,6 +351,19 @@ def test_every_trigger_fires_at_its_time(stage: Any, trigger: dict[str, Any]) ->
         again.ground('bus1', 'bus', x - 2.0 * begun, y)
         asked = _event(trigger, {'do': 'start', 'agent': 'bus1'})
         assert again.says(asked) == outcome, (trigger['on'], again.answer(asked).why)
+
+
+@pytest.mark.parametrize(('starts_s', 'outcome'), [(5.4, 'does_not'), (10.4, 'holds')])
+def test_what_a_uav_passes_in_its_ascent_it_has_not_seen(
+    stage: Any, starts_s: float, outcome: str
+) -> None:
+    """The bus is in sight from the beginning on; the UAV is up at 10 s."""
+    t = stage.t
+    stage.uav('drone', lambda t: (0.0, 20.0, np.interp(t, [0, 10], [1, 30])))
+    stage.ground('bus1', 'bus', -2.0 * np.maximum(t - starts_s, 0.0), 38.0)
+    trigger = {'on': 'visible', 'observer': 'drone', 'target': 'bus1'}
+    asked = _event(trigger, {'do': 'start', 'agent': 'bus1'})
+    assert stage.says(asked) == outcome, stage.answer(asked).why
 
 
 @pytest.mark.parametrize(

@@ -295,6 +295,18 @@ def test_a_rectangle_left_open_does_not_hold(stage: Any) -> None:
     assert stage.says({**RECTANGLE, 'size_m': [120, 80]}) == 'does_not'
 
 
+@pytest.mark.parametrize(('down_s', 'outcome'), [(28.0, 'holds'), (40.0, 'does_not')])
+def test_the_way_to_a_rectangle_may_lead_over_what_stands_in_between(
+    stage: Any, down_s: float, outcome: str
+) -> None:
+    """It leaves its hover at 14 s, through the altitude of the route, which begins at 32 s."""
+    corners = [(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]
+    course = _route([(-180, 0), *corners], 40.0, 10.0, 14.0)
+    levels = ([14, 18, down_s, down_s + 4], [30, 60, 60, 40])
+    stage.uav('drone', lambda t: (*course(t)[:2], np.interp(t, *levels)), ends=(14.0, 53.0))
+    assert stage.says({**RECTANGLE, 'size_m': [60, 40]}) == outcome
+
+
 def test_a_rectangle_is_centred_on_its_place(make_stage: Any) -> None:
     for x, outcome in ((150.0, 'holds'), (180.0, 'does_not')):
         stage = make_stage()
@@ -370,6 +382,25 @@ def test_an_orbit(stage: Any, turned: float, radius: float, outcome: str) -> Non
 
 
 @pytest.mark.parametrize(
+    ('flown_s', 'lasts', 'outcome'),
+    [(19.0, 25, 'holds'), (10.0, 25, 'does_not'), (19.0, None, 'does_not')],
+)
+def test_an_orbit_goes_as_far_round_as_there_is_time(
+    stage: Any, flown_s: float, lasts: float | None, outcome: str
+) -> None:
+    """At 8 m/s the lap of 377 m takes 47 s."""
+
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        angle = 8.0 / 60.0 * np.clip(t - 12.0, 0.0, flown_s)
+        return 210 + 60 * np.cos(angle), 30 + 60 * np.sin(angle), 40.0
+
+    stage.uav('drone', motion, ends=(36.0,))
+    asked = {**RECTANGLE, 'pattern': 'orbit', 'radius_m': 60, 'target': 'City Hall'}
+    asked |= {} if lasts is None else {'duration_s': lasts, 'speed_mps': 8}
+    assert stage.says(asked) == outcome
+
+
+@pytest.mark.parametrize(
     ('turned', 'outcome'),
     [(2.0, 'holds'), (1.0, 'does_not'), (2.1, 'cannot_tell'), (3.0, 'does_not')],
 )
@@ -414,6 +445,15 @@ def test_a_line_over_the_main_road_lies_over_a_carriageway(
     _flies(stage, [(-200, y), (200, y)])
     line = {**RECTANGLE, 'pattern': 'line', 'size_m': [400, 0], 'target': 'main_road'}
     assert stage.says(line) == outcome
+
+
+def test_the_way_to_a_line_is_no_part_of_its_leg(stage: Any) -> None:
+    """The road begins at -500 m; the UAV comes in straight from 90 m beyond it."""
+    _flies(stage, [(-590, -1.65), (-300, -1.65)])
+    line = {**RECTANGLE, 'pattern': 'line', 'target': 'main_road'}
+    # Where the line of 200 m begins on the way of 290 m cannot be seen.
+    assert stage.says({**line, 'size_m': [200, 0]}) == 'cannot_tell'
+    assert stage.says({**line, 'size_m': [290, 0]}) == 'does_not'
 
 
 def test_waypoints_in_line_cannot_be_told(stage: Any) -> None:

@@ -31,7 +31,7 @@ from aurora_core.judging.quantities import (
     yielding,
 )
 from aurora_core.outcomes.condition import Condition
-from aurora_core.spec.events import actor_of, sends_on_the_way_up, sets_off
+from aurora_core.spec.events import actor_of, reports_own_altitude, sets_off
 from aurora_core.spec.flight_order import begun_by, climbs_last
 from aurora_core.spec.parameter import Bound, Provenance
 from aurora_core.spec.scenario import (
@@ -168,10 +168,10 @@ def _alert(
 ) -> Iterator[Condition]:
     """Yield the conditions of an alert by a UAV: after ascent or capture, actor in sight.
 
-    What it needs to see nothing for may come on its way up: that holds at a stated time.
+    A report of its own altitude comes when that is reached, which may be on its way up.
     """
     missions = missions_of_uav(inputs, action.sender)
-    if not missions or sends_on_the_way_up(event):
+    if not missions or reports_own_altitude(event):
         return
     # Of a UAV that tracks from some event on, what it sees before is an alert as well.
     waiting = {m.id for m in inputs.spec.missions if begun_by(inputs.spec, m) is not None}

@@ -20,9 +20,9 @@ from aurora_core.judging.quantities import (
     route_speed,
     waypoints_visited,
 )
-from aurora_core.knowledge.limits import pattern_off_m
+from aurora_core.knowledge.limits import part_of_lap_deg, pattern_off_m
 from aurora_core.outcomes.condition import Condition, MissionArguments, Point3
-from aurora_core.quantities.waypoints import extent, has_shape, orbit_radius_m
+from aurora_core.quantities.waypoints import arc_centre, extent, has_shape, orbit_radius_m
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.vocabulary import Pattern
@@ -42,7 +42,11 @@ def route_conditions(
     Raises:
         VerificationError: The plan has another pattern than the request, or resized it.
     """
-    _check_shape(mission, arguments)
+    part_deg = None
+    if mission.pattern is Pattern.ORBIT and arc_centre(arguments.waypoints) is not None:
+        radius_m = orbit_radius_m(arguments.waypoints)
+        part_deg = part_of_lap_deg(mission, radius_m, inputs.limits, inputs.tolerances)
+    _check_shape(mission, arguments, in_part=part_deg is not None)
     _check_size(mission, arguments)
     points = arguments.waypoints
     yield waypoints_visited.all_points(inputs, arguments, source)
@@ -50,7 +54,10 @@ def route_conditions(
         yield route_closed.implied(inputs, arguments, source)
     if mission.pattern is Pattern.ORBIT:
         lasts = mission.duration_s is not None or arguments.left_by is not None
-        yield angle_swept.implied(inputs, arguments, mission.turns, source, again=lasts)
+        if part_deg is None:
+            yield angle_swept.implied(inputs, arguments, mission.turns, source, again=lasts)
+        else:
+            yield angle_swept.in_part(inputs, arguments, part_deg, source)
     count = mission.waypoint_count
     if count is not None and count.provenance is Provenance.EXPLICIT:
         yield waypoints_visited.stated_count(inputs, arguments, count, source)
@@ -99,10 +106,10 @@ def _axes(
     return (along, across) if seen[0] <= seen[1] else (across, along)
 
 
-def _check_shape(mission: UavMission, arguments: MissionArguments) -> None:
+def _check_shape(mission: UavMission, arguments: MissionArguments, *, in_part: bool) -> None:
     """Refuse a plan of another pattern: that its points are visited would then say nothing."""
     points = arguments.waypoints
-    if mission.pattern is None or has_shape(mission.pattern, points):
+    if mission.pattern is None or has_shape(mission.pattern, points, in_part=in_part):
         return
     raise VerificationError(
         f'mission {mission.id} asks for the pattern {mission.pattern.value}, the plan has '

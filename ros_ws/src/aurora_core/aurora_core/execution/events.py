@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Sequence, Set
 
 from aurora_core.comm.link import MessageLink, whole_ticks
 from aurora_core.execution.event_state import EventState, has_crossed, shows_after
@@ -25,7 +25,7 @@ from aurora_core.quantities.actions import (
     rest_s,
     takes_time,
 )
-from aurora_core.spec.events import actor_of, sends_on_the_way_up
+from aurora_core.spec.events import actor_of, reports_own_altitude
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import (
@@ -74,11 +74,14 @@ class EventRunner:
         lanes: Orders changes of lane.
         set_off: Gives the commands that let the agent of a row drive.
         drive: Gives the command that lets the agent of a row drive on.
+        held: Rows of the agents that may not set off yet.
         stopping: Rows of the agents that stop by themselves, at their place.
         ways: Who has to drive before anybody stops.
 
     Attributes:
         sped_up: Rows of agents that drive as fast as an event has told them.
+        slowed_mps: How fast the agents of rows may drive that an event has told to stop, or to be
+            no faster: whoever may set off only later keeps to that.
     """
 
     def __init__(
@@ -92,6 +95,7 @@ class EventRunner:
         lanes: LaneChanger,
         set_off: Callable[[int], list[GroundCommand]],
         drive: Callable[[int], GroundCommand],
+        held: Set[int],
         stopping: frozenset[int],
         ways: Ways,
     ) -> None:
@@ -102,9 +106,11 @@ class EventRunner:
         self._stopping = stopping
         self._ways = ways
         self._drive = drive
+        self._held = held
         self._spec = spec
         self._moved: set[int] = set()
         self.sped_up: set[int] = set()
+        self.slowed_mps: dict[int, float] = {}
         self._yielding = Yielding(spec, roster)
         self._links = links
         # What waits for a body that could not be placed never happens: the run ends without it,
@@ -198,7 +204,7 @@ class EventRunner:
                 continue
             due = tick >= state.triggered_tick + whole_ticks(event.waits_s, dt_s)
             due = due and self._may_follow(event, tick)
-            due = due and self._can_begin(event, seen)
+            due = due and self._can_begin(event, seen) and self._has_stood(event, tick, dt_s)
             if due and self._allowed(event, seen, machines):
                 commands += self._act(tick, event, seen, machines)
                 note(tick, ScenarioEventKind.ACTION, event.id, '')
@@ -291,6 +297,22 @@ class EventRunner:
             state.done = True
             self._progress.done_tick[state.event.id] = tick
 
+    def _has_stood(self, event: Event, tick: int, dt_s: float) -> bool:
+        """Tell whether who is to start again has stood for as long as a stop is."""
+        action = event.action
+        if not isinstance(action, AgentAction) or action.do != 'start':
+            return True
+        stops = [
+            s
+            for s in self._states
+            if isinstance(s.event.action, AgentAction)
+            and (s.event.action.agent, s.event.action.do) == (action.agent, 'stop')
+            and s.acted
+        ]
+        hold_ticks = whole_ticks(self._rules.stop_hold_s, dt_s)
+        done = self._progress.done_tick
+        return all(s.done and tick - done[s.event.id] >= hold_ticks for s in stops)
+
     def _can_begin(self, event: Event, seen: Observation) -> bool:
         """Tell whether an action is possible now.
 
@@ -355,8 +377,7 @@ class EventRunner:
     ) -> bool:
         """A UAV reports only what it sees: after its ascent, when tracking after capture.
 
-        Once it has landed it reports nothing. What it needs to see nothing for it sends when that
-        is due.
+        Once it has landed it reports nothing. Its own altitude it reports when it is reached.
         """
         if not isinstance(event.action, SendMessage):
             return True
@@ -366,7 +387,7 @@ class EventRunner:
             return True
         if machine.landed:
             return False
-        if sends_on_the_way_up(event):
+        if reports_own_altitude(event):
             return True
         if machine.ascended_tick is None:
             return False
@@ -420,6 +441,8 @@ class EventRunner:
             return []
         # A person who crosses has stood on the way that was planned over the street.
         crosses = action.do == 'cross' and self._roster.agents[row].is_person
+        if action.do in ('start', 'accelerate'):
+            self.slowed_mps.pop(row, None)
         if crosses or (action.do == 'start' and action.value_mps is None):
             return self._set_off(row)
         now_mps = seen.speed_mps(action.agent)
@@ -434,6 +457,11 @@ class EventRunner:
         commands = [GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=goal_mps)]
         if action.do == 'accelerate':
             self.sped_up.add(row)
+        # Who stands has no speed to halve.
+        if action.do == 'stop' or (action.do == 'slow' and action.value_mps is not None):
+            self.slowed_mps[row] = goal_mps
+            if row in self._held and goal_mps > 0.0:
+                return []  # who may not set off yet stands
         if action.do == 'brake':
             harder = GroundCommandKind.SET_DECELERATION
             commands.insert(0, GroundCommand(agent=row, kind=harder, value=BRAKING_MPS2))

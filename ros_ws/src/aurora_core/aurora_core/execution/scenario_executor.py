@@ -28,6 +28,7 @@ from aurora_core.execution.reports import Reports
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.execution.triggers import BatteryRule
 from aurora_core.execution.ways import Destinations, Ways
+from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.mission.machine import MissionMachine
@@ -56,6 +57,9 @@ _GENTLY_MPS2 = 3.0
 
 # Who stops by itself stands for the rest of any run (s).
 _STANDS_S = 3600.0
+
+# Who walks up to a kerb is there when he is as near to it (m).
+_AT_KERB_M = 0.4
 
 # Distance recorded for a transmission to or from a body that is gone (m).
 GONE_M = 1e6
@@ -110,6 +114,7 @@ class ScenarioExecutor:
         self._link_sequence = count()
         self._events: list[EventRecord] = []
         self._held = {i for i, a in enumerate(setup.agents) if a.release is not ReleaseOn.START}
+        self._walking_up = {i: a.halt_xy_m for i, a in enumerate(setup.agents) if a.halt_xy_m}
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
         self._ways = Ways(setup.spec, setup.drive_m)
@@ -143,6 +148,7 @@ class ScenarioExecutor:
         commands = self._initial_commands() if tick == 0 else []
         rows = self._fly(tick, uav, seen)
         commands += self._release(tick, seen)
+        commands += self._halts(seen)
         self._ways.step(s.roster.dt_s, seen)
         self._destinations.step(seen)
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
@@ -195,6 +201,7 @@ class ScenarioExecutor:
             self._lanes(),
             self._set_off,
             self._drives,
+            self._held,
             stopping,
             self._ways,
         )
@@ -244,6 +251,7 @@ class ScenarioExecutor:
     def _set_off(self, index: int) -> list[GroundCommand]:
         """Return the commands that let an agent drive, who may have been held until now."""
         agent = self._setup.agents[index]
+        self._walking_up.pop(index, None)
         if index in self._held or not agent.stop_lane_id:
             self._held.discard(index)
             return self._start_commands(index, agent)
@@ -274,8 +282,29 @@ class ScenarioExecutor:
             if ready or _is_as_far(agent, seen):
                 self._held.discard(index)
                 self.note(tick, ScenarioEventKind.RELEASED, agent.id)
-                commands += self._start_commands(index, agent)
+                commands += self._released_commands(index, agent)
         return commands
+
+    def _halts(self, seen: Observation) -> list[GroundCommand]:
+        """Let persons who have walked to where they cross wait there for that."""
+        commands = []
+        for index, (x_m, y_m) in sorted(self._walking_up.items()):
+            point = seen.position(self._setup.agents[index].id)
+            if point is not None and norm2(point[0] - x_m, point[1] - y_m) <= _AT_KERB_M:
+                del self._walking_up[index]
+                commands.append(
+                    GroundCommand(agent=index, kind=GroundCommandKind.SET_SPEED, value=0.0)
+                )
+        return commands
+
+    def _released_commands(self, index: int, agent: GroundedAgent) -> list[GroundCommand]:
+        """Return what lets an agent drive, no faster than an event has told it meanwhile."""
+        most_mps = self._runner.slowed_mps.get(index)
+        drive, *stop = self._start_commands(index, agent)
+        if most_mps is None or 0.0 < drive.value <= most_mps:
+            return [drive, *stop]
+        kind = GroundCommandKind.SET_SPEED
+        return [GroundCommand(agent=index, kind=kind, value=most_mps), *stop]
 
     def _fly(self, tick: int, uav: FloatArray, seen: Observation) -> FloatArray:
         rows = np.zeros((len(self._setup.machines), UAV_COMMAND_WIDTH))

@@ -9,16 +9,25 @@ from math import ceil, hypot, inf, isfinite
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.operands import AT_LEAST, whole
 from aurora_core.feasibility.radio import check_radio
 from aurora_core.feasibility.rounds import check_rounds
 from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.sight import check_sight
 from aurora_core.feasibility.times import check_times
 from aurora_core.feasibility.zones import place_distances
-from aurora_core.knowledge.limits import EXACT, Limits, Tolerances, hover_drift_limit_m
+from aurora_core.knowledge.limits import (
+    EXACT,
+    Limits,
+    Tolerances,
+    ascent_s,
+    hover_drift_limit_m,
+)
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.uav_record import RESERVE, UavRecord
+from aurora_core.spec.events import TimeTrigger, reports_own_altitude
 from aurora_core.spec.parameter import Bound
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage, UavMission
 from aurora_core.spec.stated import is_stated, least, most
@@ -79,7 +88,9 @@ def doubts(
     yield from _off_the_streets(spec, map_model)
     yield from _far_hovers(spec, map_model, limits, tolerances)
     yield from _fast_targets(spec, limits, uav)
+    yield from _early_messages(spec, limits, tolerances)
     yield from _short_legs(spec, tolerances, uav)
+    yield from _never_slow(spec)
     if uav is not None:
         yield from _strong_wind(spec, limits, tolerances, uav)
         yield from _empty_batteries(spec, limits, uav)
@@ -132,6 +143,26 @@ def _far_hovers(
             yield (
                 f'{ends[0]} and {ends[1]} hover at least {apart_m:.0f} m apart, and their link '
                 f'reaches {reach_m:g} m: only on its way one may be near the other.'
+            )
+
+
+def _early_messages(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> Iterator[str]:
+    """Messages that are due before their UAV is up, at the rate at which ascents are flown."""
+    for event in spec.events:
+        action, trigger = event.action, event.trigger
+        if not isinstance(action, SendMessage) or not isinstance(trigger, TimeTrigger):
+            continue
+        first = next((m for m in spec.missions if m.uav == action.sender), None)
+        at = trigger.at_s
+        if first is None or not is_stated(at) or reports_own_altitude(event):
+            continue
+        due_s = at.value + event.waits_s
+        slack = tolerances.duration_s.of(due_s, approximate=at.approximate)
+        up_s = ascent_s(first.altitude_m.value, limits)
+        if up_s > most(at, event.waits_s + slack, inf):
+            yield (
+                f'{action.sender} is up at about {up_s:.1f} s, and sends nothing before; '
+                f'{event.id} is set to {due_s:g} s.'
             )
 
 
@@ -235,4 +266,18 @@ def _short_legs(
             yield (
                 f'{mission.uav} needs {needed_m:.0f} m to get to {speed.value:g} m/s and to '
                 f'brake; no leg of {mission.id} is longer than {longest_m:g} m.'
+            )
+
+
+def _never_slow(spec: ScenarioSpec) -> Iterator[str]:
+    """A least speed for all of a route: it begins and ends at rest, and slows down for corners."""
+    for condition in spec.conditions:
+        flown = [m for m in spec.missions if condition.of == (m.uav,)]
+        asked = condition.quantity == QuantityName.SPEED and condition.op in AT_LEAST
+        if not asked or not whole(condition) or condition.value.value <= 0.0:
+            continue
+        if flown and all(m.mode is MissionMode.NAVIGATE for m in flown):
+            yield (
+                f'{flown[0].uav} begins and ends its route at rest and slows down for sharp '
+                f'corners: there it is slower than {condition.value.value:g} m/s.'
             )

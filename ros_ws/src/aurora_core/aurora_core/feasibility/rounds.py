@@ -28,7 +28,7 @@ import shapely
 from aurora_core.feasibility.certificates import beyond
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
 from aurora_core.feasibility.zones import is_half_read, is_redirected, roof_of
-from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.limits import Limits, Tolerances, part_of_lap_deg
 from aurora_core.knowledge.map_types import Building, Landmark
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.quantities.waypoints import ORBIT_STEP_DEG
@@ -80,6 +80,9 @@ def check_rounds(
             continue
         if is_half_read(spec, mission) or is_redirected(spec, mission):
             continue
+        radius_m = 0.0 if mission.radius_m is None else mission.radius_m.value
+        if part_of_lap_deg(mission, radius_m, limits, tolerances) is not None:
+            continue  # it may pass what stands on the rest of its circle
         for way, least_m in _ways(mission, limits, tolerances):
             around = tuple(b for b in buildings if b.height_m >= least_m and way.reaches(b, mark))
             if cutting := _cutting(way, _centres(mark, buildings), around, mark):

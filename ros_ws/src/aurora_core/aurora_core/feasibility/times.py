@@ -28,6 +28,7 @@ _RULES = (
     (BoundKind.BATTERY, Rule.BATTERY),
     (BoundKind.CAUSE, Rule.ORDER),
     (BoundKind.MESSAGE, Rule.ORDER),
+    (BoundKind.ALOFT, Rule.DEADLINE),
 )
 
 

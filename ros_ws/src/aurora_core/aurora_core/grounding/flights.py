@@ -65,6 +65,8 @@ _EARLY = 0.5
 
 # A hover point stays so much inside the tolerance of its place (m).
 _DRIFTS_M = 0.1
+# One at the edge of that tolerance is inside it, whatever is rounded (m).
+_ROUNDING_M = 5e-7
 
 # Steps in which a flight at a landmark looks for free air above (m).
 _HIGHER_M = 10.0
@@ -382,7 +384,7 @@ class FlightPlanner:
         if stands_off or others.leave(middle):
             return
         for ring in (1, 2):
-            radius_m, count = ring * self._apart_m, 6 * ring
+            radius_m, count = ring * self._apart_m - _ROUNDING_M, 6 * ring
             for k in range(count):
                 angle = 2.0 * pi * k / count
                 yield radius_m * cos(angle), radius_m * sin(angle)

@@ -26,6 +26,9 @@ _SHORT_M = 1.0
 # One goes round these, or to and fro.
 REPEATED = frozenset({Pattern.RECTANGLE, Pattern.ORBIT, Pattern.LINE})
 
+# A part of an orbit has so many points at least: its circle follows from them.
+_ARC_POINTS = 3
+
 # A lap of which rounding leaves so little out is a whole one (m).
 _EXACT_M = 1e-6
 
@@ -67,6 +70,21 @@ class Laps:
             count -= 1
         laps = _repeated(way, count)
         return laps, self._speed_mps(laps, goal_s)
+
+    def part(self, way: Sequence[Point3], speed_mps: float, asked_s: float) -> tuple[Point3, ...]:
+        """Return as many steps of an orbit as there is time for.
+
+        Args:
+            way: One lap (x, y, z in m), closed.
+            speed_mps: To fly it with.
+            asked_s: Time from its first point to the end, seconds.
+        """
+        least, most = _ARC_POINTS, len(way) - 1
+        while least < most:
+            middle = (least + most + 1) // 2
+            in_time = self._time_s(way[:middle], speed_mps) <= asked_s - _EARLY_S
+            least, most = (middle, most) if in_time else (least, middle - 1)
+        return tuple(way[:least])
 
     def turned(
         self,

@@ -17,14 +17,10 @@ from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.distances import DEFAULT_GAP_M
 from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.nearby import ALONG, SIDES, by_vehicles, in_order
-from aurora_core.grounding.pace import (
-    encounter_room_m,
-    met_persons,
-    own_speed_mps,
-)
+from aurora_core.grounding.pace import encounter_room_m, met_persons, own_speed_mps
 from aurora_core.grounding.parked import parked_boxes, walks_into
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
-from aurora_core.grounding.releases import person_release
+from aurora_core.grounding.releases import Release, person_release
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sidewalk_spots import Spot, at_distance, nearest_spot, off_m
 from aurora_core.grounding.sites import (
@@ -35,7 +31,7 @@ from aurora_core.grounding.sites import (
     line_from,
 )
 from aurora_core.grounding.stepping_out import FarKerb, names_crosswalk, steps_out
-from aurora_core.grounding.walk_ends import KERB_M, NEXT_M, arrival_m
+from aurora_core.grounding.walk_ends import KERB_M, NEXT_M, arrival_m, halt_m, walks_up_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -48,11 +44,7 @@ from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.parking import stands
 from aurora_core.spec.reference import is_landmark
-from aurora_core.spec.scenario import (
-    AgentAction,
-    GroundAgent,
-    ScenarioSpec,
-)
+from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
@@ -178,7 +170,9 @@ class PersonPlacer:
             x, y = x - seat.lateral_m * hy, y + seat.lateral_m * hx
             free = path.begins_m is not None
             stays = free or not _goes(spec, agent)
-            release = person_release(spec, agent)
+            mps = own_speed_mps(agent) or self._style.walking_mps
+            halts = halt_m(site, seat, walks_up_m(spec, agent, mps), self._map.network)
+            release = person_release(spec, agent) if halts is None else Release()
             goal_m = self._map.network.lane(path.goal_lane_id).arc_length_m
             arrival = arrival_m(site, seat, goal_m, crosses=crosses(spec, agent))
             if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
@@ -202,12 +196,13 @@ class PersonPlacer:
                 arrival_position_m=None if stays else arrival,
                 lateral_m=seat.lateral_m,
                 way_xy_m=line_from(path, seat.arc_m) if free else (),
+                halt_xy_m=None if halts is None else path.position_at(halts)[:2],
                 release=ReleaseOn.NEVER if stays and not free else release.on,
                 release_uav=release.uav,
                 release_mission=release.mission,
                 release_agent=release.agent,
                 release_within_m=release.within_m,
-                drive_speed_mps=own_speed_mps(agent) or self._style.walking_mps,
+                drive_speed_mps=mps,
                 acceleration_mps2=record.accel_mps2,
                 deceleration_mps2=record.decel_mps2,
             )
@@ -226,7 +221,9 @@ class PersonPlacer:
             stated = any(is_stated(p.distance_m) for p in agent.placements)
             ahead = any(p.relation in _BEFORE_IT for p in agent.placements)
             back_m = _ARRIVES_FROM_M if _arrives(spec, agent) else KERB_M
-            return self._crossing(site, placed if stated or not ahead else None, number, back_m)
+            up_m = walks_up_m(spec, agent, own_speed_mps(agent) or self._style.walking_mps)
+            there = placed if stated or not ahead else None
+            return self._crossing(site, there, number, back_m, up_m)
         if isinstance(placed, str):
             return placed
         if placed is None:
@@ -256,9 +253,12 @@ class PersonPlacer:
         return 'far_kerb' if way is None else Spot(way, 0.0)
 
     def _crossing(
-        self, site: Site, placed: Spot | str | None, number: int, back_m: float
+        self, site: Site, placed: Spot | str | None, number: int, back_m: float, up_m: float
     ) -> Spot | str:
-        """Return the walk over the crosswalk of a site, begun so far before it (m)."""
+        """Return the walk over the crosswalk of a site, begun so far before it (m).
+
+        Who walks up to it, by `up_m`, does so from the beginning of the sidewalk at most.
+        """
         x, y, _, _ = site.origin()
         crossing = self._places.crossing_near((x, y))
         path = None if crossing is None else kerb_to_kerb(self._map.network, crossing)
@@ -276,7 +276,7 @@ class PersonPlacer:
         begin_m = first.arc_length_m - back_m - NEXT_M * number
         if begin_m < 0.0 and back_m > KERB_M:
             return 'crosswalk'
-        return Spot(path, max(0.0, begin_m))
+        return Spot(path, max(0.0, begin_m - up_m))
 
     def _ahead(self, site: Site, point: tuple[float, float]) -> bool:
         """Tell whether a point lies on the way of the vehicles, ahead of all of them."""

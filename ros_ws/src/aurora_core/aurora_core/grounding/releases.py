@@ -89,24 +89,30 @@ def _reported_route(spec: ScenarioSpec, agent: GroundAgent) -> UavMission | None
 
 
 def _slows_at_sight(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> bool:
-    """Tell whether one slows down as soon as a UAV sees another one that it watches."""
-    watched = next((m.target for m in spec.missions if m.id == release.mission), None)
+    """Tell whether one slows down as soon as the UAV that it waits for sees another one.
+
+    Whom that UAV watches waits for it all the same.
+    """
+    if any(m.id == release.mission and m.target == agent.id for m in spec.missions):
+        return False
     for event in spec.events:
         action = event.action
         if not isinstance(action, AgentAction) or action.agent != agent.id:
             continue
-        slows = action.do in FROM_MOTION and agent.id != watched
-        if slows and any(_is_sighting(e, release.uav, watched) for e in _causes(spec, event)):
+        slows = action.do in FROM_MOTION
+        if slows and any(_is_sighting(e, release.uav, agent.id) for e in _causes(spec, event)):
             return True
     return False
 
 
-def _is_sighting(event: Event, uav: str, watched: str | None) -> bool:
+def _is_sighting(event: Event, uav: str, agent: str) -> bool:
+    """Tell whether an event waits for a UAV to see somebody else than an agent."""
     trigger = event.trigger
     return (
         isinstance(trigger, VisibilityTrigger)
         and trigger.on == 'visible'
-        and (trigger.observer, trigger.target) == (uav, watched)
+        and trigger.observer == uav
+        and trigger.target != agent
     )
 
 

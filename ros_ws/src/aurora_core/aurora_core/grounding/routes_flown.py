@@ -26,10 +26,16 @@ from aurora_core.grounding.planned_flight import (
     planned_height_m,
 )
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
-from aurora_core.knowledge.limits import Limits, Tolerances, pattern_off_m
+from aurora_core.knowledge.limits import (
+    Limits,
+    Tolerances,
+    part_of_lap_deg,
+    pattern_off_m,
+)
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.mission.plan import MissionPlan
+from aurora_core.quantities.waypoints import orbit_radius_m
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import UavMission
@@ -357,12 +363,21 @@ class RoutePlanner:
                 plan.waypoints, max(1.0, turns), plan.speed_mps, asked_s, keeps_speed=keeps_speed
             )
             update |= {'waypoints': way, 'speed_mps': speed_mps}
+        elif asked_s is not None and self._is_part(mission, plan):
+            update['waypoints'] = self._laps.part(plan.waypoints, plan.speed_mps, asked_s)
         elif mission.pattern in REPEATED and asked_s is not None:
             way, speed_mps = self._laps.lasting(
                 plan.waypoints, plan.speed_mps, asked_s, keeps_speed=keeps_speed
             )
             update |= {'waypoints': way, 'speed_mps': speed_mps}
         return plan.model_copy(update=update)
+
+    def _is_part(self, mission: UavMission, plan: MissionPlan) -> bool:
+        """Tell whether there is no time for a whole orbit."""
+        if mission.pattern is not Pattern.ORBIT:
+            return False
+        radius_m = orbit_radius_m(plan.waypoints)
+        return part_of_lap_deg(mission, radius_m, self._limits, self._tolerances) is not None
 
     def _over_street(self, placed: tuple[tuple[float, float], ...]) -> float:
         legs = [shapely.LineString([a, b]) for a, b in itertools.pairwise(placed)]

@@ -4,7 +4,10 @@
 
 from __future__ import annotations
 
+from aurora_core.grounding.pace import stated_times_s
 from aurora_core.grounding.sites import SeatedPerson, Site
+from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind
 
 # Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
@@ -15,6 +18,9 @@ NEXT_M = 1.0
 # goes so far in all: farther than shows that it does.
 _BEYOND_M = 6.0
 _WALKS_M = 24.0
+
+# Who walks up to a crosswalk to cross at a stated time is there so long before (s).
+_EARLY_S = 2.0
 
 
 def arrival_m(site: Site, seat: SeatedPerson, goal_m: float, *, crosses: bool) -> float:
@@ -51,3 +57,34 @@ def walk_end_m(goal_m: float, ahead: int, group: int) -> float:
     """
     last_m = max(goal_m - KERB_M, goal_m / 2.0)
     return last_m - min(NEXT_M, last_m / group) * ahead
+
+
+def walks_up_m(spec: ScenarioSpec, agent: GroundAgent, walking_mps: float) -> float:
+    """Return how far somebody walks to where he crosses at a stated time (m), 0 for all others.
+
+    "Walks on the sidewalk and crosses at 25 s": until then he walks.
+    """
+    if all(b.kind is not BehaviorKind.WALK for b in agent.behaviors):
+        return 0.0
+    times_s = stated_times_s(spec)
+    due_s = [
+        times_s[e.id] + e.waits_s
+        for e in spec.events
+        if e.id in times_s
+        and isinstance(e.action, AgentAction)
+        and (e.action.agent, e.action.do) == (agent.id, 'cross')
+    ]
+    return walking_mps * max(0.0, min(due_s, default=0.0) - _EARLY_S)
+
+
+def halt_m(site: Site, seat: SeatedPerson, walks_m: float, network: RoadNetwork) -> float | None:
+    """Return where on the way over a crosswalk one waits who has walked up to it (m).
+
+    None for who stands there from the beginning, or crosses where no crosswalk is.
+    """
+    path = seat.path
+    if walks_m <= 0.0 or path.crossing_id is None:
+        return None
+    ahead = [w for w in site.walkers if w.path.lane_id == path.lane_id and w.arc_m > seat.arc_m]
+    end_m = network.lane(path.lane_id).arc_length_m - KERB_M - NEXT_M * len(ahead)
+    return end_m if end_m > seat.arc_m else None

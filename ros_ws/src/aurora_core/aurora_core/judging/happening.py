@@ -9,8 +9,9 @@ from aurora_core.judging.build import Inputs
 from aurora_core.judging.evaluation import Context, Missing
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.verdict import Reason
+from aurora_core.spec.events import reports_own_altitude
 from aurora_core.spec.parameter import Provenance
-from aurora_core.spec.scenario import AgentAction, DistanceTrigger, Event
+from aurora_core.spec.scenario import AgentAction, DistanceTrigger, Event, SendMessage
 from aurora_core.stl.syntax import format_number
 
 # What moments of events rest on.
@@ -34,6 +35,25 @@ def trigger_story(context: Context, event_id: str, tick: int) -> str:
         metres = format_number(trigger.value_m.value)
         return f'{trigger.a} came {within} {metres} m of {trigger.b} {when}'
     return f'{event_id} was triggered {when}'
+
+
+def unready_story(context: Context, event_id: str) -> str:
+    """Return, to end a sentence, that who sends a message could not yet when it was due."""
+    times = context.events
+    event, due = times.event(event_id), times.due_tick(event_id)
+    if event is None or due is None or not isinstance(event.action, SendMessage):
+        return ''
+    if reports_own_altitude(event) or times.possible_tick(event_id, due) != due:
+        return ''
+    ready, flight = times.reports_from(event, due), times.rules.flights.get(event.action.sender)
+    if ready is None or ready <= due or flight is None:
+        return ''
+    climbs = flight.ascent_end_tick is None or flight.ascent_end_tick > due
+    what = 'was still climbing' if climbs else 'had not captured its target'
+    return (
+        f'; {event.action.sender} {what} at {context.time_s(due):.2f} s, when it was due: it can '
+        f'send from {context.time_s(ready):.2f} s on'
+    )
 
 
 def agent_action(context: Context, condition: Condition, event_id: str) -> AgentAction:

@@ -82,6 +82,7 @@ class BoundKind(StrEnum):
     CAUSE = 'cause'  # an event waits for the end of another one
     MESSAGE = 'message'  # a message is received after it was sent
     SIGHT = 'sight'  # a UAV looks out once it is up
+    ALOFT = 'aloft'  # a UAV sends once it is up
     DONE = 'done'  # a UAV's missions are over
     DELAY = 'delay'  # what happens comes after its trigger, by a stated delay
     SOON = 'soon'  # and within the time that tolerances leave

@@ -70,6 +70,8 @@ class GroundedAgent(Document):
         runs_red: It drives on at a red light where nobody is in its way.
         lateral_m: Persons: so far left of the middle of the sidewalk.
         way_xy_m: Persons: their way over the street where no crosswalk is, ENU map frame.
+        halt_xy_m: Persons: where they wait, once they have walked there, for the event that lets
+            them cross; ENU map frame.
         gentle_mps2: It accelerates no harder, so that who keeps a distance behind it can (None:
             as its type does).
     """
@@ -108,6 +110,7 @@ class GroundedAgent(Document):
     runs_red: bool = omitted(False)
     lateral_m: FiniteFloat = omitted(0.0)
     way_xy_m: tuple[tuple[FiniteFloat, FiniteFloat], ...] = omitted(())
+    halt_xy_m: tuple[FiniteFloat, FiniteFloat] | None = omitted(None)
     release_agent: str = omitted('')
     release_within_m: FiniteFloat = omitted(0.0)
     release_beyond_m: FiniteFloat = omitted(0.0)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Defaults that hurry: a flight with a deadline is lower and shorter where that is left open.
 
-"Tracks the bus and has landed by 70 s" says neither how high nor for how long.
+"Tracks the bus and has landed by 70 s" says neither how high nor for how long; "at 5 s it sends
+a message" not how high it is by then.
 """
 
 from __future__ import annotations
@@ -10,17 +11,21 @@ from __future__ import annotations
 from itertools import pairwise
 from math import inf, pi
 
-from aurora_core.knowledge.limits import Limits
+from aurora_core.grounding.pace import stated_times_s
+from aurora_core.knowledge.limits import Limits, ascent_s
+from aurora_core.spec.events import reports_own_altitude
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import ScenarioSpec, UavMission
-from aurora_core.spec.vocabulary import Pattern
+from aurora_core.spec.scenario import ScenarioSpec, SendMessage, UavMission
+from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 # Share of the greatest rates at which a UAV is counted on to climb and to sink.
 _RATE_SHARE = 0.8
 # To its first mission and to the landing spot, and to every further mission (s).
 _AROUND_S = 20.0
 _BETWEEN_S = 10.0
+# From its ascent to the capture of what it tracks, where its start is beside the street (s).
+_CAPTURES_S = 4.0
 # What is left of open altitudes (m) and durations (s); between houses one is no lower.
 _LEAST_M = 15.0
 _LEAST_S = 10.0
@@ -38,6 +43,10 @@ def hurried(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     changed: dict[str, UavMission] = {}
     for uav in spec.uavs:
         own = [m for m in spec.missions if m.uav == uav.id]
+        early = _up_in_time(own, _sends_at_s(spec, uav.id), limits)
+        if early != own:
+            own = early
+            changed |= {m.id: m for m in own}
         late_s = _needed_s(own, limits) - _deadline_s(spec, uav.id)
         if own and late_s > 0.0:
             own = _lower(own, late_s, limits)
@@ -60,6 +69,34 @@ def _deadline_s(spec: ScenarioSpec, uav: str) -> float:
         ),
         default=inf,
     )
+
+
+def _sends_at_s(spec: ScenarioSpec, uav: str) -> float:
+    """Return the first stated time at which a UAV sends a message (s)."""
+    times_s = stated_times_s(spec)
+    return min(
+        (
+            times_s[event.id] + event.waits_s
+            for event in spec.events
+            if event.id in times_s
+            and isinstance(event.action, SendMessage)
+            and event.action.sender == uav
+            and not reports_own_altitude(event)
+        ),
+        default=inf,
+    )
+
+
+def _up_in_time(own: list[UavMission], due_s: float, limits: Limits) -> list[UavMission]:
+    """Return missions of which the first one is low enough to have begun by then."""
+    if own and own[0].mode is MissionMode.TRACK:
+        due_s -= _CAPTURES_S
+    late_s = ascent_s(own[0].altitude_m.value, limits) - due_s if own else 0.0
+    if late_s <= 0.0:
+        return own
+    per_m = ascent_s(1.0, limits) - ascent_s(0.0, limits)
+    lower = _less(own[0].altitude_m, late_s / per_m, _LEAST_M)
+    return [own[0].model_copy(update={'altitude_m': lower}), *own[1:]]
 
 
 def _needed_s(own: list[UavMission], limits: Limits) -> float:

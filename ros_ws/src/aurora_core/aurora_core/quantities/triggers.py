@@ -174,9 +174,13 @@ class EventTimes:
         event = self.event(event_id)
         if event is None or not _is_near_the_sender(event):
             return start
-        return self._reports_from(event, start)
+        return self.reports_from(event, start)
 
-    def _reports_from(self, event: Event, start: int) -> int | None:
+    def reports_from(self, event: Event, start: int) -> int | None:
+        """Return from when on, not before `start`, a UAV sends what an event makes it send.
+
+        That is once it is up, or has captured what it tracks; None if that never comes.
+        """
         assert isinstance(event.action, SendMessage)
         sender = event.action.sender
         first = next((m for m in self.spec.missions if m.uav == sender), None)

@@ -163,10 +163,34 @@ def _length_m(leg: Leg) -> float:
 
 
 def pattern_centre(waypoints: Sequence[Point3]) -> tuple[float, float]:
-    """Return the centre of the rectangle (map axes) that holds the waypoints, metres."""
+    """Return the centre of a pattern, metres: of the circle of a part of an orbit.
+
+    Of all others it is that of the rectangle (map axes) that holds the waypoints.
+    """
+    middle = arc_centre(waypoints)
+    if middle is not None:
+        return middle
     x = [point[0] for point in waypoints]
     y = [point[1] for point in waypoints]
     return (min(x) + max(x)) / 2.0, (min(y) + max(y)) / 2.0
+
+
+def arc_centre(points: Sequence[Point3]) -> tuple[float, float] | None:
+    """Return the centre (m) of the circle of which points are a part, None where they are not.
+
+    They are open, and go on in steps of an orbit.
+    """
+    if len(points) < 3 or points[0] == points[-1]:
+        return None
+    (ax, ay, _), (bx, by, _), (cx, cy, _) = points[0], points[len(points) // 2], points[-1]
+    bx, by, cx, cy = bx - ax, by - ay, cx - ax, cy - ay
+    twice = 2.0 * (bx * cy - by * cx)
+    if abs(twice) <= _SHAPE_M:
+        return None
+    b2, c2 = bx * bx + by * by, cx * cx + cy * cy
+    x, y = ax + (cy * b2 - by * c2) / twice, ay + (bx * c2 - cx * b2) / twice
+    east, north = np.array([p[0] - x for p in points]), np.array([p[1] - y for p in points])
+    return (x, y) if _is_even(east, north) and _is_fine(east, north) else None
 
 
 def longest_leg(waypoints: Sequence[Point3]) -> tuple[Point3, Point3]:
@@ -187,7 +211,7 @@ _SHAPE_DEG = 0.1
 ORBIT_STEP_DEG = 10.0
 
 
-def has_shape(pattern: Pattern, points: Sequence[Point3]) -> bool:
+def has_shape(pattern: Pattern, points: Sequence[Point3], *, in_part: bool = False) -> bool:
     """Tell whether planned waypoints have the shape of a pattern.
 
     Args:
@@ -195,7 +219,10 @@ def has_shape(pattern: Pattern, points: Sequence[Point3]) -> bool:
             fro on parallel lines; `waypoints` are in any order, and none of these.
         points: (x, y, z) metres, in the order flown. Lines, rectangles and orbits may be flown
             several times.
+        in_part: There is no time for a whole orbit.
     """
+    if in_part and pattern is Pattern.ORBIT and arc_centre(points) is not None:
+        return True
     if pattern is Pattern.LINE:
         return len(points) >= 2 and _first_lap(points)[1:-1] in ((), (points[1],))
     if pattern in (Pattern.RECTANGLE, Pattern.ORBIT):
@@ -240,16 +267,29 @@ def _way(a: tuple[float, float], b: tuple[float, float]) -> float:
 def _is_ring(points: Sequence[Point3]) -> bool:
     """Tell whether points lie on a circle and go round it once, in steps of an orbit."""
     east, north = _from_middle(points)
-    away = distance_2d(east, north)
-    if np.max(away) - np.min(away) > _SHAPE_M * max(float(np.max(away)), 1.0):
+    if not _is_even(east, north) or not _is_fine(east, north):
         return False
     turned = turned_deg(compass_bearing_deg(east, north))
-    is_fine = bool(np.all(np.abs(np.diff(turned)) <= ORBIT_STEP_DEG + _SHAPE_DEG))
-    return is_fine and abs(abs(float(turned[-1])) - 360.0) <= _SHAPE_DEG
+    return abs(abs(float(turned[-1])) - 360.0) <= _SHAPE_DEG
+
+
+def _is_even(east: FloatArray, north: FloatArray) -> bool:
+    """Tell whether points are as far from their middle as each other."""
+    away = distance_2d(east, north)
+    return bool(np.max(away) - np.min(away) <= _SHAPE_M * max(float(np.max(away)), 1.0))
+
+
+def _is_fine(east: FloatArray, north: FloatArray) -> bool:
+    """Tell whether points go round their middle in steps of an orbit."""
+    turned = turned_deg(compass_bearing_deg(east, north))
+    return bool(np.all(np.abs(np.diff(turned)) <= ORBIT_STEP_DEG + _SHAPE_DEG))
 
 
 def orbit_radius_m(points: Sequence[Point3]) -> float:
     """Return how far the points of a planned orbit are from their middle, metres."""
+    middle = arc_centre(points)
+    if middle is not None:
+        return float(distance_2d(points[0][0] - middle[0], points[0][1] - middle[1]))
     return float(distance_2d(*_from_middle(_first_lap(points)))[0])
 
 

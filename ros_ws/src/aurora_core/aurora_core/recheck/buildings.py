@@ -218,7 +218,20 @@ def cut_round(proof: Certificate, request: Request) -> list[Step]:
     if not step[0]:
         other = _no_points(request, mission, high, middles)
         step = other if other[0] else step
-    return [*steps, (proof.limit == limit, f'{proof.limit_name} is {limit:g}'), step]
+    known = (proof.limit == limit, f'{proof.limit_name} is {limit:g}')
+    return [*steps, known, _has_time(request, mission), step]
+
+
+def _has_time(request: Request, mission: dict[str, Any]) -> Step:
+    """What is flown in part, for want of time, may leave out what buildings cut."""
+    words = 'its stated time, if any, has room for a lap'
+    radius, time, speed = mission['radius_m'], mission.get('duration_s'), mission.get('speed_mps')
+    if mission.get('turns') is not None or not stated(time) or time.get('bound') == 'at_least':
+        return True, words
+    slack = request.slack('route_speed_mps', speed) if stated(speed) else 0.0
+    top = left_open(speed, slack, 0.0, request.limit('uav_speed_max_mps'))[1]
+    gains = top / float(request.tolerances['route_acceleration_mps2'])
+    return math.tau * float(radius['value']) / top + gains <= float(time['value']), words
 
 
 def _no_way(request: Request, mission: dict[str, Any], high: float, middles: list[Place]) -> Step:

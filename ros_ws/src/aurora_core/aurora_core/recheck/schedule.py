@@ -24,7 +24,7 @@ _Key = tuple[BoundKind, str, str, str]
 _ABOUT: Mapping[Rule, frozenset[BoundKind]] = MappingProxyType(
     {
         Rule.BATTERY: frozenset({BoundKind.BATTERY}),
-        Rule.DEADLINE: frozenset({BoundKind.DEADLINE}),
+        Rule.DEADLINE: frozenset({BoundKind.DEADLINE, BoundKind.ALOFT}),
         Rule.HORIZON: frozenset({BoundKind.INSIDE}),
         Rule.ORDER: frozenset({BoundKind.ORDER, BoundKind.CAUSE, BoundKind.MESSAGE}),
     }

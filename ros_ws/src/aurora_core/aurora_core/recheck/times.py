@@ -68,6 +68,11 @@ def _event(request: Request, event: dict[str, Any]) -> Iterator[Derived]:
         spare = 0.0 if deadline or not action else float(request.tolerances['event_delay_s'])
         yield Derived(Kind.SOON, of, at, of, most_s=longest + spare)
     yield from _trigger(request, event, trigger)
+    if action.get('do') == 'send_message':
+        sender = action['sender']
+        climbs = trigger.get('on') == 'altitude_reached' and trigger.get('uav') == sender
+        if not climbs and any(m['uav'] == sender for m in request.all('missions')):
+            yield Derived(Kind.ALOFT, of, f'uavs/{sender}/up', of, 0.0)
 
 
 def _trigger(

@@ -9,7 +9,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from aurora_core.document import omitted
-from aurora_core.spec.parameter import Bound, Element, Parameter, Provenance, Span
+from aurora_core.spec.parameter import Bound, Element, Parameter, Span
 from aurora_core.spec.reference import Id, PlaceRef, is_place
 from aurora_core.spec.vocabulary import LaneSide
 
@@ -241,23 +241,6 @@ def reports_own_altitude(event: Event) -> bool:
         and isinstance(trigger, AltitudeTrigger)
         and trigger.uav == action.sender
     )
-
-
-def sends_on_the_way_up(event: Event) -> bool:
-    """Tell whether a UAV sends a message before its ascent is over, too.
-
-    It sees nothing for that: it reports an altitude of its own, sends at a stated time or so long
-    after something, or hands on what it was told.
-    """
-    action, trigger = event.action, event.trigger
-    if not isinstance(action, SendMessage):
-        return False
-    if isinstance(trigger, TimeTrigger):
-        return trigger.at_s.provenance is Provenance.EXPLICIT
-    if isinstance(trigger, EventDoneTrigger) and trigger.after_s is not None:
-        return trigger.after_s.provenance is Provenance.EXPLICIT
-    hands_on = isinstance(trigger, MessageTrigger) and trigger.by == action.sender
-    return hands_on or reports_own_altitude(event)
 
 
 def actor_of(event: Event) -> str | None:

@@ -10,6 +10,7 @@ from functools import partial
 from itertools import chain
 
 from aurora_core.outcomes.feasibility import BoundKind
+from aurora_core.spec.events import reports_own_altitude
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -45,7 +46,7 @@ def done(event: str) -> str:
 def event_links(basis: Basis) -> Iterator[Link]:
     """Yield the bounds on the times of all events."""
     for event in basis.spec.events:
-        yield from chain(_cause(basis, event), _happening(basis, event))
+        yield from chain(_cause(basis, event), _happening(basis, event), _aloft(basis, event))
 
 
 def _happening(basis: Basis, event: Event) -> Iterator[Link]:
@@ -89,6 +90,23 @@ def _happening(basis: Basis, event: Event) -> Iterator[Link]:
             kind=BoundKind.END,
             of=of,
             words=f'{event.id} is a moment',
+        )
+
+
+def _aloft(basis: Basis, event: Event) -> Iterator[Link]:
+    """Yield that a UAV sends nothing before its ascent is over, but for an altitude of its own."""
+    action = event.action
+    if not isinstance(action, SendMessage) or reports_own_altitude(event):
+        return
+    if flown_by(basis, action.sender):
+        yield Link(
+            earlier=f'uavs/{action.sender}/up',
+            later=moment(event.id),
+            least_s=0.0,
+            kind=BoundKind.ALOFT,
+            of=f'events/{event.id}',
+            words=f'{action.sender} sends once it is up',
+            stated=((f'events/{event.id}/action/sender', action.sender),),
         )
 
 

@@ -75,6 +75,7 @@ class Stage:
         absent: Ids of agents that the request names and that nobody placed.
         releases: When each may start, as (release, UAV); START where not given.
         parted: Who waits until whom is how far away (m).
+        halts: Where persons wait who have walked there to cross; all of them are persons then.
         tracks: UAV id -> target of its one mission, '' = no mission at all.
         links: UAV or agent pairs with a link.
         hold_s: Length of the track missions.
@@ -89,6 +90,7 @@ class Stage:
     absent: tuple[str, ...] = ()
     releases: dict[str, tuple[ReleaseOn, str]] = field(default_factory=dict)
     parted: dict[str, tuple[str, float]] = field(default_factory=dict)
+    halts: dict[str, tuple[float, float]] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
     tracks: dict[str, str] = field(default_factory=lambda: {'uav1': 'van1'})
     links: tuple[tuple[str, str], ...] = ()
@@ -189,7 +191,7 @@ class Stage:
             return RosterEntry(
                 body_id=body_id,
                 type_name=kind,
-                is_person=False,
+                is_person=body_id in self.halts,
                 system_id=system_id,
                 length_m=4.5,
                 width_m=1.8,
@@ -221,7 +223,7 @@ class Stage:
         return GroundedAgent(
             id=agent,
             type_name='car',
-            is_person=False,
+            is_person=agent in self.halts,
             length_m=4.5,
             width_m=1.8,
             height_m=1.5,
@@ -240,6 +242,7 @@ class Stage:
             release_uav=uav,
             release_mission=f'm{list(self.tracks).index(uav)}' if uav else '',
             drive_speed_mps=self.speeds.get(agent),
+            halt_xy_m=self.halts.get(agent),
         )
 
     def _uav_plans(self) -> list[UavPlan]:

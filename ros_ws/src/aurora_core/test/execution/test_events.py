@@ -409,21 +409,25 @@ def test_a_uav_reports_its_own_altitude_on_its_way_up(stage: Build, parameter: M
     assert _sent(scene) == [1]
 
 
-def test_what_needs_no_sight_is_sent_when_it_is_due_while_the_uav_climbs(
+def test_what_is_due_while_the_uav_climbs_is_not_sent_before_it_is_up(
     stage: Build, parameter: Make
 ) -> None:
     send = SendMessage(do='send_message', sender='uav1', receiver='ego')
-    stated = parameter(0.1, 's').model_copy(
-        update={'provenance': Provenance.EXPLICIT, 'span': Span(start=0, end=1)}
-    )
-    unsaid = stated.model_copy(update={'provenance': Provenance.DEFAULT, 'span': None})
-    for at_s, sent in ((stated, [2]), (unsaid, [4])):
-        event = _event(TimeTrigger(on='time', at_s=at_s), send)
-        scene = stage(events=(event,), links=(('uav1', 'ego'),))
+    told = SendMessage(do='send_message', sender='van1', receiver='uav1')
+    stated = {'provenance': Provenance.EXPLICIT, 'span': Span(start=0, end=1)}
+    at_s = parameter(0.1, 's').model_copy(update=stated)
+    timed = TimeTrigger(on='time', at_s=at_s)
+    first = _event(TimeTrigger(on='time', at_s=parameter(0.0, 's')), told, id='e2')
+    after = EventDoneTrigger(on='event_done', event='e2', after_s=at_s)
+    handed_on = MessageTrigger(on='message_received', by='uav1')
+    for trigger in (timed, after, handed_on):
+        events = (first, _event(trigger, send))
+        scene = stage(events=events, links=(('uav1', 'ego'), ('van1', 'uav1')))
         for z in (1.0, 5.0, 10.0, 14.5):  # it is to ascend to 30 m, and to track the van
             scene.fly('uav1', 15.0, 0.0, z).step()
         scene.fly('uav1', 15.0, 0.0, 30.0).put('van1', 15.0).step()
-        assert _sent(scene) == sent, at_s
+        own = [r.tick for o in scene.outputs for r in o.links if r.link == 'l0']
+        assert own[:1] == [4], trigger
 
 
 def test_who_has_landed_sends_nothing_at_a_stated_time(stage: Build, parameter: Make) -> None:
@@ -463,6 +467,18 @@ def test_a_delayed_alert_waits_its_delay(stage: Build, parameter: Make) -> None:
 
 SET = int(GroundCommandKind.SET_SPEED)
 DECELERATION = int(GroundCommandKind.SET_DECELERATION)
+
+
+def test_who_is_to_start_again_has_stood_for_the_time_of_a_stop(
+    stage: Build, parameter: Make
+) -> None:
+    at = [TimeTrigger(on='time', at_s=parameter(s, 's')) for s in (0.1, 0.5)]
+    stop, start = (AgentAction(do=do, agent='ego') for do in ('stop', 'start'))
+    scene = stage(events=(_event(at[0], stop), _event(at[1], start, id='e2')))
+    scene.put('ego', 0.0, speed=10.0).step(4)
+    scene.put('ego', 1.0, speed=0.0).step(60)
+    # It stands from tick 4 on, and 2 s are 40 ticks.
+    assert [(t, s) for t, s, _ in scene.notes(ScenarioEventKind.ACTION)] == [(2, 'e1'), (44, 'e2')]
 
 
 @pytest.mark.parametrize(

@@ -90,6 +90,40 @@ def test_who_is_told_how_fast_to_drive_is_not_held_nor_slowed_by_its_release(
     assert scene.notes(ScenarioEventKind.RELEASED) == []
 
 
+def test_who_walks_up_to_a_kerb_waits_there_until_it_is_time_to_cross(
+    stage: Callable[..., Any], parameter: Callable[..., Any]
+) -> None:
+    at = TimeTrigger(on='time', at_s=parameter(0.5, 's'))
+    crosses = Event(id='e1', trigger=at, action=AgentAction(do='cross', agent='ego'))
+    scene = stage(events=(crosses,), halts={'ego': (5.0, 0.0)}, speeds={'ego': 1.2})
+    for x in (0.0, 2.0, 4.7, 4.8):
+        scene.put('ego', x).step()
+    scene.step(10)
+    speeds = [(tick, v) for tick, who, kind, v in scene.commands() if who == 'ego' and kind == SET]
+    assert speeds == [(0, 1.2), (2, 0.0), (10, 1.2)]
+
+
+@pytest.mark.parametrize(
+    ('do', 'most', 'told_at_once'), [('stop', 0.0, True), ('slow', 4.0, False)]
+)
+def test_who_is_told_to_stop_or_slow_down_before_it_may_set_off_keeps_to_that(
+    do: str,
+    most: float,
+    told_at_once: bool,
+    stage: Callable[..., Any],
+    parameter: Callable[..., Any],
+) -> None:
+    value = None if do == 'stop' else parameter(most, 'm/s')
+    slower = AgentAction(do=do, agent='van1', value_mps=value)  # type: ignore[arg-type]
+    told = Event(id='e1', trigger=TimeTrigger(on='time', at_s=parameter(0.1, 's')), action=slower)
+    scene = stage(releases={'van1': (ReleaseOn.CAPTURED, 'uav1')}, events=(told,))
+    scene.put('van1', 100.0).fly('uav1', 0.0, 0.0, 30.0).step(4)
+    scene.fly('uav1', 91.0, 0.0, 30.0).step(5)
+    speeds = [(tick, kind, v) for tick, who, kind, v in scene.commands() if who == 'van1']
+    assert speeds == [(0, SET, 0.0), *([(2, SET, most)] if told_at_once else []), (4, SET, most)]
+    assert [name for _, name, _ in scene.notes(ScenarioEventKind.RELEASED)] == ['van1']
+
+
 @pytest.mark.parametrize(
     ('release', 'ready_after'), [(ReleaseOn.ASCENDED, 'ascent'), (ReleaseOn.OBSERVED, 'landing')]
 )

@@ -178,6 +178,27 @@ def test_a_flight_that_was_measured_to_empty_the_battery_is_doubted() -> None:
     assert 'for 1400 s at least' in long
 
 
+def test_a_message_that_is_due_before_its_drone_is_up_is_doubted_or_refused() -> None:
+    prompt = 'A drone hovers over City Hall at 60 m. At {} s the drone sends a message to my car.'
+    refused, near, far = (_judged(prompt.format(seconds)) for seconds in (5, 14, 20))
+    (proof,) = refused.certificates
+    assert 'uav1 climbs 58 m at 5 m/s at most (11.6 s)' in proof.sentence
+    assert {'events/e1/trigger/at_s', 'missions/m1/altitude_m'} == {m.path for m in proof.mends}
+    assert near.result is Feasibility.UNKNOWN
+    assert any('uav1 is up at about 16.0 s' in note for note in near.notes)
+    assert not any('is up at' in note for note in far.notes)
+
+
+def test_a_route_that_is_never_to_be_slow_is_doubted() -> None:
+    prompt = 'A drone flies a rectangle of 150 by 100 m at 50 m. The speed of the drone {}.'
+    never, at_most = (
+        _judged(prompt.format(words))
+        for words in ('always stays above 3 m/s', 'always stays below 12 m/s')
+    )
+    assert any('slower than 3 m/s' in note for note in never.notes)
+    assert not any('at rest' in note for note in at_most.notes)
+
+
 def test_a_vehicle_that_is_to_come_nearer_than_any_street_is_doubted() -> None:
     prompt = 'My car drives. When my car comes within {} m of City Hall, my car brakes.'
     near, far = (_judged(prompt.format(metres)) for metres in (20, 80))

@@ -185,6 +185,10 @@ def _told(by_s: float) -> Part:
     }
 
 
+def _sent(at_s: float, altitude_m: float) -> Part:
+    return {'missions': [hover(None, altitude_m)], 'events': [at(at_s, action=sends())]}
+
+
 def _waits(by_s: float) -> Part:
     # 29.4 s on the ground, 29.4 s up there, 27.7 m down 9.2333 s: 68.033 s
     begin = {'do': 'change_mission', 'uav': 'uav1', 'mission': 'm1'}
@@ -254,6 +258,10 @@ PAIRS = (
     _pair('height that triggers', Rule.DEADLINE, 'conditions/c1', _up(19.9), _up(20.0)),
     _pair('sight', Rule.DEADLINE, 'conditions/c1', _seen(19.3), _seen(19.5)),
     _pair('message after a mission', Rule.DEADLINE, 'conditions/c1', _told(29.3), _told(29.5)),
+    # 58 m up 11.6 s, and half a second of tolerance
+    _pair(
+        'message in the ascent', Rule.DEADLINE, 'events/e1', _sent(11.0, 60.0), _sent(11.2, 60.0)
+    ),
     _pair('lap', Rule.DEADLINE, 'conditions/c1', _lap(82.0), _lap(82.1)),
     _pair('late take-off', Rule.DEADLINE, 'conditions/c1', _waits(68.0), _waits(68.1)),
     _pair(

@@ -13,7 +13,7 @@ from aurora_core.grounding.laps import REPEATED, Laps
 from aurora_core.grounding.patterns import pattern_points
 from aurora_core.knowledge.settings import load_settings
 from aurora_core.mission.setpoint import FlightSettings, RouteReference
-from aurora_core.quantities.waypoints import has_shape
+from aurora_core.quantities.waypoints import has_shape, orbit_radius_m, pattern_centre
 from aurora_core.spec.vocabulary import Pattern
 
 Point3 = tuple[float, float, float]
@@ -89,6 +89,16 @@ def test_one_lap_is_flown_however_short_the_time() -> None:
     for keeps_speed in (True, False):
         way, _ = LAPS.lasting(lap(Pattern.ORBIT), 5.0, 10.0, keeps_speed=keeps_speed)
         assert way == lap(Pattern.ORBIT)
+
+
+@pytest.mark.parametrize('asked_s', [12.0, 20.0])
+def test_an_orbit_without_time_for_a_lap_is_flown_in_part(asked_s: float) -> None:
+    way = LAPS.part(lap(Pattern.ORBIT), 5.0, asked_s)
+    assert asked_s - SPARE_S - 1.5 <= flown_s(way, 5.0) <= asked_s - SPARE_S
+    assert has_shape(Pattern.ORBIT, way, in_part=True)
+    assert not has_shape(Pattern.ORBIT, way)
+    assert pattern_centre(way) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert orbit_radius_m(way) == pytest.approx(25.0)
 
 
 @pytest.mark.parametrize('radius_m', [20.0, 37.0, 60.0, 83.3])

@@ -97,6 +97,22 @@ def test_who_hovers_over_one_building_keeps_what_is_asked_and_stays_over_it(
     assert max(np.linalg.norm(points - points.mean(axis=0), axis=1)) <= 10.0
 
 
+def test_who_hovers_beside_a_route_is_over_its_place_all_the_same(
+    grounded: Ground, map_of: Callable[[str], MapModel]
+) -> None:
+    found = grounded(
+        'One drone flies a 150 m line over the main road at 50 m. Another drone hovers over the '
+        'intersection at 50 m.'
+    )
+    route, hover = (uav.missions[0] for uav in found.uavs)
+    assert hover.hover_point is not None
+    x, y, _ = hover.hover_point
+    line = shapely.LineString([point[:2] for point in route.waypoints])
+    assert line.distance(shapely.Point(x, y)) >= 9.99
+    middle = MapPlaces(map_of('downtown')).point('intersection', (x, y))
+    assert np.hypot(x - middle[0], y - middle[1]) <= 10.0
+
+
 def test_a_single_route_stays_where_it_was(grounded: Ground) -> None:
     alone = _ways(grounded('A drone flies a 200 m line at 50 m.'))[0]
     first = _ways(grounded('Two drones fly a 200 m line at 50 m.'))[0]

@@ -160,6 +160,25 @@ def test_who_walks_and_crosses_goes_on_far_enough_to_have_walked(
     assert before_m + person.arrival_position_m >= tolerances.drive_distance_m + 1.0
 
 
+@pytest.mark.parametrize('at_s', [12, 25])
+def test_who_walks_and_crosses_at_a_stated_time_walks_until_then(
+    grounded: Ground, at_s: int
+) -> None:
+    found, the_map = grounded(
+        f'A pedestrian walks on the sidewalk and crosses the street after {at_s} seconds. A drone '
+        'tracks the pedestrian at 40 m.'
+    )
+    (person,) = _persons(found)
+    assert person.release is ReleaseOn.START
+    assert person.halt_xy_m is not None
+    assert person.drive_speed_mps is not None
+    way_m = dist((person.x_m, person.y_m), person.halt_xy_m)
+    sidewalk_m = the_map.network.lane(person.lane_id).arc_length_m
+    # He is there before it is time, but no earlier than the sidewalk lets him.
+    assert way_m < person.drive_speed_mps * at_s
+    assert way_m > min(0.8 * person.drive_speed_mps * at_s, 0.9 * sidewalk_m)
+
+
 def test_who_is_at_a_landmark_and_ahead_of_a_vehicle_is_both(grounded: Ground) -> None:
     found, the_map = grounded(
         'A pedestrian waits near City Hall 30 m ahead of the ego car. The ego car drives.'

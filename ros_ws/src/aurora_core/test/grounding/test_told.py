@@ -69,6 +69,18 @@ def test_who_slows_down_at_the_first_sight_is_on_the_move_by_then(agents: Agents
     assert found['motorcycle1'].release is ReleaseOn.CAPTURED
 
 
+def test_who_stops_at_the_first_sight_of_a_drone_over_a_place_is_on_the_move(
+    agents: Agents,
+) -> None:
+    found = agents(
+        'A drone hovers over the intersection at 40 m. An ambulance drives. My car drives. When '
+        'the drone sees the ambulance, it sends a message to my car. When my car gets the '
+        'message, it stops.'
+    )
+    assert found['ego'].release is ReleaseOn.START
+    assert found['ambulance1'].release is ReleaseOn.CAPTURED
+
+
 def test_who_speeds_up_then_waits_with_the_others(agents: Agents) -> None:
     found = agents(f'{TRACKING}car. When my car gets the message, it accelerates.')
     assert found['ego'].release is ReleaseOn.CAPTURED

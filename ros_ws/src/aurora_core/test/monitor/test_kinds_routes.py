@@ -87,6 +87,20 @@ def _turning(asked: float, flown: float, bound: Bound = Bound.EXACTLY) -> Case:
     return case
 
 
+def _short(flown_deg: float) -> Case:
+    """An orbit of 20 s, planned for 130 deg of its circle; at 18 m/s a lap takes longer.
+
+    There is time for 8 m/s x (20 - 4 - 8 / 1.5) s on 40 m, 122.2 deg.
+    """
+    case = _orbit(RADIUS_M, flown_deg / 360.0)
+    (plan,), (facts,) = case.spec.missions, case.facts.missions
+    lasts = number(20.0, Unit.SECOND, explicit=True)
+    case.spec = spec(**{**dict(case.spec), 'missions': (dict(plan) | {'duration_s': lasts},)})
+    part = facts.model_copy(update={'waypoints': tuple(_corner(k) for k in range(14))})
+    case.facts = case.facts.model_copy(update={'missions': (part,)})
+    return case
+
+
 def _way(end_x: float = 300.0, flown_mps: float = 8.0, points: int = 2) -> Case:
     """A way of 300 m from the old gate to the new one, or to the new one alone, at 8 m/s."""
     ticks = 1801
@@ -229,6 +243,8 @@ ROWS = (
         what='farther',
     ),
     Row(id='m1.turn', make=lambda: grounded(_orbit(40.0, 1.0)), reason=EMPTY),
+    Row(id='m1.turn', make=lambda: _short(130.0), margin=130.0 - 107.2, within=0.1, what='part'),
+    Row(id='m1.turn', make=lambda: _short(90.0), margin=90.0 - 107.2, within=0.1, what='less'),
     # A stated number of turns: neither fewer nor more, but for its bound.
     Row(id='m1.turn', make=lambda: _turning(1.1, 1.1), margin=15.0, within=0.1, what='stated'),
     Row(

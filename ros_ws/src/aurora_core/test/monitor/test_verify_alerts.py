@@ -196,6 +196,17 @@ def test_milestones_have_to_happen(tb: ModuleType) -> None:
     assert _results(tb, case)['e2.happens'].reason is Reason.PREMISE_NEVER
 
 
+def test_a_message_that_waits_for_the_ascent_says_from_when_on_it_can_be(tb: ModuleType) -> None:
+    case = tb.tailgate_case()
+    (event,) = case.spec.events
+    at = {'on': 'time', 'at_s': tb.number(3.0, Unit.SECOND, explicit=True)}
+    case.spec = tb.spec(**{**dict(case.spec), 'events': (dict(event) | {'trigger': at},)})
+    found = _results(tb, case)['e1.time']
+    assert not found.satisfied
+    assert 'uav1 was still climbing at 3.00 s' in found.explanation
+    assert 'it can send from 9.70 s on' in found.explanation
+
+
 def test_an_event_at_a_stated_time(tb: ModuleType) -> None:
     case = tb.tailgate_case()
     (event,) = case.spec.events

@@ -10,7 +10,16 @@ from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.planning.complete import complete
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, StatedCondition, Uav, UavMission
+from aurora_core.spec.scenario import (
+    Event,
+    GroundAgent,
+    ScenarioSpec,
+    SendMessage,
+    StatedCondition,
+    TimeTrigger,
+    Uav,
+    UavMission,
+)
 from aurora_core.spec.vocabulary import AgentType, MissionMode
 
 Make = Callable[..., Parameter]
@@ -88,3 +97,41 @@ def test_what_is_stated_stays(parameter: Make) -> None:
 def test_a_stated_bound_on_the_altitude_stays(parameter: Make) -> None:
     altitude_m, _ = _flown(parameter, by_s=50.0, least_m=20.0)
     assert altitude_m >= 20.0
+
+
+def _sends_from_m(
+    make: Make, at_s: float, mode: MissionMode = MissionMode.HOVER, *, stated_m: bool = False
+) -> float:
+    """Return the altitude (m) of who hovers or tracks and sends a message at a stated time."""
+    mission = UavMission(
+        id='m1',
+        uav='uav1',
+        mode=mode,
+        target='van1',
+        altitude_m=make(30.0, explicit=stated_m),
+        standoff_m=make(0.0, explicit=False) if mode is MissionMode.TRACK else None,
+        duration_s=make(30.0, 's', explicit=False),
+    )
+    event = Event(
+        id='e1',
+        trigger=TimeTrigger(on='time', at_s=make(at_s, 's')),
+        action=SendMessage(do='send_message', sender='uav1', receiver='van1'),
+    )
+    spec = ScenarioSpec(
+        prompt='x',
+        agents=(GroundAgent(id='van1', type=AgentType.VAN),),
+        uavs=(Uav(id='uav1'),),
+        missions=(mission,),
+        events=(event,),
+    )
+    (found,) = complete(spec, LIMITS).missions
+    return found.altitude_m.value
+
+
+def test_who_sends_soon_is_low_enough_to_be_up_by_then(parameter: Make) -> None:
+    assert _sends_from_m(parameter, 10.0) == 30.0
+    assert 15.0 < _sends_from_m(parameter, 6.0) <= 20.0
+    assert _sends_from_m(parameter, 1.0) == 15.0
+    assert _sends_from_m(parameter, 6.0, stated_m=True) == 30.0
+    # Who tracks sends once it has captured its target.
+    assert 15.0 < _sends_from_m(parameter, 10.0, MissionMode.TRACK) <= 20.0

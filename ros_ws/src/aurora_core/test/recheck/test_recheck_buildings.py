@@ -296,6 +296,14 @@ def test_what_an_orbit_leaves_open_is_not_refused(
     assert not accepted(sure[0], spec)
 
 
+def test_an_orbit_without_time_for_a_lap_is_not_refused() -> None:
+    """At 18 m/s the lap of 314 m takes 17 s, and getting so fast and braking 12 s more."""
+    sure = proofs(orbit(number(50.0, 'm'), number(20.0, 'm'), number(40.0, 's')), Rule.ROUND)
+    short = orbit(number(50.0, 'm'), number(20.0, 'm'), number(25.0, 's'))
+    assert not proofs(short, Rule.ROUND)
+    assert not accepted(sure[0], short)
+
+
 def test_an_orbit_of_any_length_is_refused_where_towers_take_its_points() -> None:
     towers = orbit(number(45.0, 'm'), number(40.0, 'm'), None)
     forged = proofs(towers, Rule.ROUND)[0]

@@ -77,11 +77,34 @@ def implied(
     else:
         words = f'{number(_TURN_DEG)} deg'
         target = Target(op='==', threshold=_TURN_DEG, unit='deg', tolerance=tolerance_deg)
+    return _swept(inputs, mission, words, target, source)
+
+
+def in_part(
+    inputs: Inputs, mission: MissionArguments, part_deg: float, source: Source
+) -> Condition:
+    """Return that an orbit goes as far round as there is time for.
+
+    Args:
+        inputs: The request and its plan.
+        mission: The orbit.
+        part_deg: How far that is at least (degrees).
+        source: Of the condition.
+    """
+    least_deg = max(0.0, part_deg - inputs.tolerances.orbit_deg)
+    target = Target(op='>=', threshold=least_deg, unit='deg')
+    words = f'at least {number(part_deg)} deg, for which there is time,'
+    return _swept(inputs, mission, words, target, source)
+
+
+def _swept(
+    inputs: Inputs, mission: MissionArguments, words: str, target: Target, source: Source
+) -> Condition:
     return condition(
         id=f'{mission.mission}.turn',
         sentence=(
             f'{mission.uav} goes {words} round the centre of its orbit, within '
-            f'{number(tolerance_deg)} deg'
+            f'{number(inputs.tolerances.orbit_deg)} deg'
         ),
         of=(mission.uav,),
         target=target,

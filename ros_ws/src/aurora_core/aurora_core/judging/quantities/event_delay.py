@@ -18,6 +18,7 @@ from aurora_core.judging.happening import (
     moment,
     never_happened,
     trigger_story,
+    unready_story,
 )
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
@@ -160,6 +161,7 @@ def _carried_out(
 ) -> Evaluation:
     value = context.time_s(action - trigger)
     story = f'{begin}; {event_id} was carried out {value:.2f} s later'
+    story += unready_story(context, event_id)
     return at_tick(action, value, story, EVENT_TOPICS)
 
 

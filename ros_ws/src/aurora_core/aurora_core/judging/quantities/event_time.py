@@ -9,7 +9,7 @@ from typing import Literal
 from aurora_core.document import omitted
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, at_tick
-from aurora_core.judging.happening import moment, never_happened
+from aurora_core.judging.happening import moment, never_happened, unready_story
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Parameter
@@ -48,7 +48,8 @@ class EventTime(OfEvent):
             tick -= 0 if possible is None else possible - due
         value = context.time_s(tick)
         happened = 'was complete' if self.done else 'happened'
-        return at_tick(tick, value, f'{self.event} {happened} at {value:.2f} s', ('events',))
+        story = f'{self.event} {happened} at {value:.2f} s{unready_story(context, self.event)}'
+        return at_tick(tick, value, story, ('events',))
 
 
 def happens(inputs: Inputs, event: Event, part: Part, source: Source) -> Condition:
