@@ -25,6 +25,8 @@ REPORT_HTML = 'report.html'
 TRANSCRIPT = 'transcript.jsonl'
 RETRIEVAL = 'retrieval.json'
 PICTURE = 'picture.png'
+SIGNED = 'signed.json'
+SIGNATURE = 'signed.sig'
 
 _RUN_ID = re.compile(r'\d{8}T\d{6}Z-[0-9a-f]{6}')
 _TEMPORARY_PREFIX = '.writing-'
@@ -44,6 +46,15 @@ class StageFile(StrEnum):
     def name_at(self, iteration: int) -> str:
         """Return the file name at a repair iteration (from 0)."""
         return f'{self.value}.{iteration}.json'
+
+
+_PARTS = (MANIFEST, PROMPT, REPORT, REPORT_HTML, TRANSCRIPT, RETRIEVAL, PICTURE)
+_STAGE = re.compile(rf'(?:{"|".join(StageFile)})\.\d+\.json|bag\.\d+')
+
+
+def is_part_of_run(name: str) -> bool:
+    """Tell whether a file or folder of this name in a run folder is taken for one of the run."""
+    return name in _PARTS or _STAGE.fullmatch(name) is not None
 
 
 def new_run_id(utc: datetime, entropy: bytes) -> str:
