@@ -30,7 +30,7 @@ test: ## every test (PYTEST_ADDOPTS=… for options)
 	@tools/setup.sh --dev
 	@tools/test.sh
 
-lint: ## ruff (lint and format), the import rules, and widths and word lists
+lint: ## ruff (lint and format), the import rules, bandit, packages, widths and word lists
 	@tools/setup.sh --dev --no-build
 	@tools/lint.sh
 
