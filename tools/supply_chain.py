@@ -94,8 +94,7 @@ def licences_that_differ() -> Iterator[str]:
     """Yield the installed packages that tell another licence than is listed for them."""
     listed: dict[str, str] = known()['licences']
     for found in distributions():
-        told = found.metadata.get('License-Expression')
-        name = (found.metadata.get('Name') or '').lower()
+        told, name = found.metadata.json.get('license_expression'), found.name.lower()
         if told and name in listed and listed[name] != told:
             yield f'{name} says that its licence is {told}, licences.toml has {listed[name]}'
 
@@ -107,7 +106,7 @@ def start_up_problems(folder: Path) -> Iterator[str]:
         folder: `site-packages`. Lines that only name a folder run nothing.
     """
     owners = {
-        file.name: (found.metadata.get('Name') or '').lower()
+        file.name: found.name.lower()
         for found in distributions(path=[str(folder)])
         for file in found.files or ()
         if file.suffix == '.pth' and len(file.parts) == 1

@@ -17,6 +17,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from aurora_core.errors import ReportError
+from aurora_core.report.visible import visible_json
 
 MANIFEST = 'manifest.json'
 PROMPT = 'prompt.txt'
@@ -220,14 +221,17 @@ class RunFolder:
 def json_text(document: BaseModel | dict[str, Any] | list[Any]) -> str:
     """Return the JSON text of a document, two blanks of indentation, newline at the end.
 
+    Who reads it in a terminal sees direction marks of a prompt as escapes.
+
     Raises:
         ReportError: A number is not finite, or a value has no JSON form.
     """
     value = document.model_dump(mode='json') if isinstance(document, BaseModel) else document
     try:
-        return json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + '\n'
+        text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
     except (ValueError, TypeError) as err:
         raise ReportError(f'a document cannot be written as JSON: {err}') from err
+    return visible_json(text) + '\n'
 
 
 def _sync_folder(path: Path) -> None:
