@@ -38,7 +38,7 @@ _KINDS: dict[str, _Reader] = {
     'report.json': lambda path: read_document(path, RunReport),
     'manifest.json': lambda path: read_document(path, Manifest),
 }
-_VALUES = (
+_VALUES: tuple[Any, ...] = (
     None, True, -1, 0, 1e308, -1e-308, 2**63, 10**400, '', 'x' * 10_000, '../../etc/passwd',
     '\x1b[2J', '\u202e', [], {}, [[]], {'kind': 'x'}, 'NaN', float('inf'),
 )  # fmt: skip

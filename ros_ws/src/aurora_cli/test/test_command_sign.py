@@ -55,7 +55,7 @@ def keys(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
 @pytest.fixture
 def run(here: Path, finished: SimpleNamespace) -> Path:
     """A copy of the verified run."""
-    target = here / 'runs' / finished.folder.name
+    target: Path = here / 'runs' / finished.folder.name
     shutil.copytree(finished.folder, target)
     return target
 
