@@ -21,6 +21,7 @@ from aurora_cli.finish import Json, Quiet, finish
 from aurora_cli.help_commands import add_help_commands
 from aurora_cli.map_commands import maps
 from aurora_cli.output import BROKEN, INTERRUPTED, USAGE, UsageProblem, say
+from aurora_core.errors import hint_for
 
 # Typer carries its own copy of click: the class is reached through one that it exports.
 _USAGE_ERROR = cast(type[Exception], typer.BadParameter.__mro__[1])
@@ -452,8 +453,8 @@ def run_command_line(arguments: list[str]) -> int:
     except Exception as err:  # noqa: BLE001  (the last place that can turn a defect into words)
         if os.environ.get('AURORA_TRACEBACK'):
             traceback.print_exc()
-        say(f'aurora: this is a defect of AURORA: {type(err).__name__}: {err}')
-        say('        set AURORA_TRACEBACK=1 to see where, and please report it')
+        say(f'aurora: {type(err).__name__}: {err}')
+        say(f'        {hint_for(err)}; AURORA_TRACEBACK=1 shows where')
         return BROKEN
     return int(result or 0)
 
