@@ -44,11 +44,19 @@ _WHY = {
     'R1': '`make bench-bags` kills the recorder; deaths of the whole graph are not counted',
     'R2': '`make bench-bags` with --truncations 200 --flips 1000 takes an hour',
     'R6': '`make bench-faults` strikes in three stages of a run, not in start, parse and repair',
-    'R13': 'single tests; six phases by three seeds of each are not tried',
-    'R14': 'one client, pinned; no QGroundControl by hand',
-    'R16': "tests of single clocks; the machine's own clock was not moved (libfaketime)",
     'R19': '100 runs of ten prompts in one process; the graph of 500 is not tried',
-    'R22': 'no threshold of coverage yet',
+}
+# Lines that try a part of what their promise says, however many cases they have: never `met`.
+_IN_PART = {
+    'failsafes, as tests': 'single tests; six phases by three seeds of each are not tried',
+    'MAVSDK, as tests': 'one client, pinned; no QGroundControl by hand',
+    'SUMO faults, as tests': 'tests of the client, by their names; no crash inside libsumo, no '
+    'vehicle that SUMO loses in the middle of a run',
+    'clocks, as tests': 'tests of clocks and silences, by their names; the clock of the machine '
+    'was not moved (libfaketime)',
+    'orders in prompts': 'the built-in reader alone: not through models, knowledge or repair',
+    'hostile model servers': 'reading a prompt; not the revision of a run in repair',
+    'lint and types': 'no threshold of coverage, and no count of error codes that are provoked',
 }
 
 
@@ -87,7 +95,9 @@ class Entry(Document):
             return 'not tried'
         if not self.kept:
             return 'NOT HELD'
-        return 'met' if self.found.tried >= self.wanted else 'held, fewer tried'
+        if self.found.tried < self.wanted:
+            return 'held, fewer tried'
+        return 'held, in part' if self.name in _IN_PART else 'met'
 
 
 def write_table(
@@ -122,9 +132,9 @@ def write_table(
         (line.ident, line.name, failure) for line in lines for failure in line.found.failures
     ]
     short = [
-        (line.ident, line.name, _WHY.get(line.ident, f'`{line.how}`, with `--whole`'))
+        (line.ident, line.name, _reason(line))
         for line in lines
-        if line.kept and line.found.tried < line.wanted
+        if line.kept and line.result != 'met'
     ]
     tables = [
         Table(
@@ -140,7 +150,11 @@ def write_table(
         )
     if short:
         tables.append(
-            Table(headings=('id', 'tried', 'why'), rows=short, caption='Fewer than the target')
+            Table(
+                headings=('id', 'tried', 'why'),
+                rows=short,
+                caption='Fewer than the target, or a part of it',
+            )
         )
     write_results(
         results,
@@ -161,6 +175,11 @@ def write_table(
             f'target {line.wanted}: {line.result}\n'
         )
     return int(any(line.found.tried and not line.kept for line in lines))
+
+
+def _reason(line: Entry) -> str:
+    default = f'`{line.how}`, with `--whole`'
+    return _IN_PART.get(line.name) or _WHY.get(line.ident, default)
 
 
 def _row(line: Entry) -> tuple[str | int, ...]:

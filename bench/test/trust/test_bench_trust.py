@@ -36,6 +36,7 @@ def entry(tried: int, held: int, **changes: Any) -> Entry:
         (entry(10, 10), 'met'),
         (entry(9, 9), 'held, fewer tried'),
         (entry(10, 9), 'NOT HELD'),
+        (entry(40, 40, name='clocks, as tests'), 'held, in part'),
         (entry(1000, 970, least=0.97), 'met'),
         (entry(1000, 969, least=0.97), 'NOT HELD'),
         (entry(1000, 999, least=0.97, figures={NEVER: 1.0}), 'NOT HELD'),
