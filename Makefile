@@ -9,7 +9,7 @@ PROMPT ?= A van tailgates the ego car closely, closing from 45 meters; a trackin
 export PROMPT
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo up down test lint typecheck site lock maps clean
+.PHONY: help setup demo up down test lint typecheck site lock sbom maps clean
 
 help: ## this list
 	@sed -nE 's/^([a-z%-]+):.*## (.*)/make \1\t\2/p' Makefile | expand -t 18
@@ -30,7 +30,7 @@ test: ## every test (PYTEST_ADDOPTS=… for options)
 	@tools/setup.sh --dev
 	@tools/test.sh
 
-lint: ## ruff (lint and format), the import rules, and widths and word lists
+lint: ## ruff (lint and format), the import rules, bandit, packages, widths and word lists
 	@tools/setup.sh --dev --no-build
 	@tools/lint.sh
 
@@ -43,12 +43,16 @@ site: ## the documentation as a site in site/ (no network)
 	@NO_MKDOCS_2_WARNING=1 .venv/bin/python -m mkdocs build --strict
 	@echo "site: open site/index.html"
 
-bench-%: ## one benchmark or campaign: lockstep, latency, faults, bags, graphs, endurance, replay, stl, stn, maps, matrix, encounters, online, mutation, contradictions, judged, fidelity, realise, outcome, feasibility, repair, fuzz, retrieval (results in docs/bench)
+bench-%: ## one benchmark or campaign: lockstep, latency, faults, bags, graphs, endurance, replay, stl, stn, maps, matrix, encounters, online, mutation, trust, contradictions, judged, fidelity, realise, outcome, feasibility, repair, fuzz, retrieval (results in docs/bench)
 	@tools/setup.sh --dev
 	@tools/in_env.sh python -m aurora_bench.$* --results docs/bench
 
 lock: ## resolve requirements/*.in anew, with hashes (needs Python 3.11 and 3.12)
 	@tools/lock.sh
+
+sbom: ## the packages of the run lock as CycloneDX, in sbom.cdx.json
+	@tools/setup.sh --no-build
+	@.venv/bin/python tools/supply_chain.py sbom sbom.cdx.json
 
 maps: ## build the shipped maps from their sources, and measure them
 	@tools/setup.sh --dev

@@ -109,7 +109,7 @@ class Layout:
 
 def _package_name(manifest: Path) -> str:
     try:
-        name = ElementTree.parse(manifest).getroot().findtext('name')
+        name = ElementTree.parse(manifest).getroot().findtext('name')  # nosec B314
     except ElementTree.ParseError as err:
         raise SetupError(f'{manifest} is not XML: {err}') from err
     if not name:

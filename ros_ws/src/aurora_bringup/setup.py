@@ -18,6 +18,7 @@ setup(
             [
                 'scripts/up',
                 'scripts/down',
+                'scripts/inside',
                 'scripts/common.bash',
                 'scripts/seats.bash',
                 'scripts/stopping.bash',

@@ -78,5 +78,11 @@ write_pid() {
   mv -f "$run_dir/$1.pid.new" "$run_dir/$1.pid"
 }
 
+# Says how commands reach the graph of a process that is in another network than this one.
+how_to_reach() {
+  [ -n "$1" ] && [ "$(readlink "/proc/$1/ns/net")" != "$(readlink /proc/self/ns/net)" ] || return 0
+  echo "; it is isolated: 'ros2 run aurora_bringup inside COMMAND' reaches it"
+}
+
 # Removes what a node that has ended leaves behind.
 forget() { rm -f "$run_dir/$1".{pid,ready,silent,failed,pid.new}; }

@@ -17,6 +17,8 @@ from pathlib import Path
 
 import pytest
 
+from aurora_cli.isolation import refusal
+
 SCRIPTS = Path(__file__).resolve().parents[1] / 'scripts'
 NODES = (
     'uav_sim', 'sync', 'sumo_bridge', 'uav_bridge', 'recorder',
@@ -191,6 +193,29 @@ def test_each_graph_has_a_key_of_its_own_that_only_its_user_reads(graph: Graph) 
         assert not file.exists()
     assert {len(key) for key in keys} == {32}
     assert len(keys) == 2
+
+
+def test_an_isolated_graph_is_reached_only_from_inside(graph: Graph) -> None:
+    if refusal():
+        pytest.skip(f'no network of its own can be had here: {refusal()}')
+    graph.environment['PYTHONPATH'] = os.environ['PYTHONPATH']
+    up = graph.call('up', '--detach', '--isolated')
+    assert up.returncode == 0, up.stderr
+    here = os.readlink('/proc/self/ns/net')
+    spaces = {os.readlink(f'/proc/{graph.pid(name)}/ns/net') for name in ('up', *NODES)}
+    assert len(spaces) == 1
+    assert here not in spaces
+
+    inside = graph.call('inside', 'readlink', '/proc/self/ns/net')
+    assert inside.stdout.strip() in spaces, inside.stderr
+    second = graph.call('up', '--detach')
+    assert second.returncode == 1
+    assert "it is isolated: 'ros2 run aurora_bringup inside COMMAND' reaches it" in second.stderr
+
+    assert graph.call('down').returncode == 0
+    assert graph.alive() == []
+    nobody = graph.call('inside', 'true')
+    assert (nobody.returncode, 'no up runs in domain 7' in nobody.stderr) == (1, True)
 
 
 @pytest.mark.parametrize('named', ['', '/somewhere/key'])

@@ -15,7 +15,7 @@ from aurora_cli.answers import Run, check_facts, run_request
 from aurora_cli.collector import relax_collector
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import ENGINE
-from aurora_core.errors import error_class
+from aurora_core.errors import ConfigError, error_class
 from aurora_core.execution.faults import Fault
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.parsing.text import check_prompt_text
@@ -25,6 +25,7 @@ from aurora_core.pipeline.verify_run import verify_found
 from aurora_core.report.check_report import CheckReport, build_check
 from aurora_core.report.find_bag import find_bag
 from aurora_core.report.run_report import RunReport
+from aurora_core.report.signed_run import Verifier
 from aurora_core.report.status import Status
 from aurora_core.report.verify_report import VerifyReport
 from aurora_llm.parse import check_model_name, read_prompt
@@ -157,6 +158,7 @@ class Session:
         *,
         iteration: int | None = None,
         as_recorded: bool = False,
+        trusted: str | PathLike[str] | None = None,
     ) -> VerifyReport:
         """Recompute every margin from a bag alone, and hold it against its run folder.
 
@@ -165,6 +167,7 @@ class Session:
             iteration: Repair iteration of a run folder, from 0; None: the reported one.
             as_recorded: Judge by the version, limits, tolerances and map that it was recorded
                 with, though others are installed here.
+            trusted: File of public keys by one of which the run has to be signed.
 
         Returns:
             What `aurora verify --json` prints.
@@ -173,8 +176,11 @@ class Session:
             AuroraError: There is no such bag, or it holds nothing that could be judged.
         """
         found = find_bag(str(path), iteration)
+        verifier = None if trusted is None else _verifier(Path(trusted))
         content, agsg = load_bag(found.bag)
-        return verify_found(installed(), found, content, agsg, as_recorded=as_recorded)
+        return verify_found(
+            installed(), found, content, agsg, as_recorded=as_recorded, trusted=verifier
+        )
 
 
 def _request(prompt: str, **options: Any) -> RunRequest:
@@ -187,6 +193,21 @@ def _request(prompt: str, **options: Any) -> RunRequest:
     check_model_name(request.model)
     installed().map(request.map_name)
     return request
+
+
+def _verifier(trusted: Path) -> Verifier:
+    """Return what knows the keys of a file.
+
+    Raises:
+        AuroraError: It holds none.
+    """
+    from aurora_cli.output import UsageProblem
+    from aurora_cli.signing import load_trusted
+
+    try:
+        return load_trusted(trusted)
+    except UsageProblem as err:
+        raise ConfigError(str(err)) from err
 
 
 def _raise_broken(report: RunReport, folder: Path) -> None:

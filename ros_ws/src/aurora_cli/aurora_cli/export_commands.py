@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Options of `aurora export` and `aurora bag standard`: a run for other programs."""
+"""Options of `aurora export`, `bag standard` and `sign`: a run for others."""
 
 from __future__ import annotations
 
@@ -23,6 +23,11 @@ def add_export_commands(app: typer.Typer, bag: typer.Typer) -> None:
     """Add the commands to the command line and to its group of bags."""
     app.command('export')(export)
     bag.command('standard')(standard_bag)
+
+
+def add_sign_command(app: typer.Typer) -> None:
+    """Add the command to the command line."""
+    app.command('sign')(sign)
 
 
 def export(
@@ -62,5 +67,26 @@ def standard_bag(
         from aurora_cli.commands.standard_bag import standard_command
 
         return standard_command(run_or_bag, out, iteration, as_json=as_json)
+
+    finish(command, as_json=as_json)
+
+
+def sign(
+    run: Annotated[str, typer.Argument(metavar='RUN', help='Run folder or run id.')],
+    key: Annotated[
+        Path, typer.Option(metavar='FILE', help='Ed25519 private key (OpenSSH or PEM).')
+    ],
+    new_key: Annotated[
+        bool, typer.Option('--new-key', help='Make FILE and FILE.pub first.')
+    ] = False,
+    runs: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
+    as_json: Json = False,
+) -> None:
+    """Sign every file of a run; aurora verify --trusted finds any change."""
+
+    def command() -> int:
+        from aurora_cli.commands.sign import sign_command
+
+        return sign_command(run, key, runs, new_key=new_key, as_json=as_json)
 
     finish(command, as_json=as_json)

@@ -16,11 +16,12 @@ from typing import Annotated, Any, NoReturn, cast
 import typer
 
 from aurora_cli.collector import relax_collector
-from aurora_cli.export_commands import add_export_commands
+from aurora_cli.export_commands import add_export_commands, add_sign_command
 from aurora_cli.finish import Json, Quiet, finish
 from aurora_cli.help_commands import add_help_commands
 from aurora_cli.map_commands import maps
 from aurora_cli.output import BROKEN, INTERRUPTED, USAGE, UsageProblem, say
+from aurora_core.errors import hint_for
 
 # Typer carries its own copy of click: the class is reached through one that it exports.
 _USAGE_ERROR = cast(type[Exception], typer.BadParameter.__mro__[1])
@@ -40,6 +41,7 @@ app.add_typer(maps, name='map')
 app.add_typer(certificate, name='certificate')
 app.add_typer(bag, name='bag')
 add_export_commands(app, bag)
+add_sign_command(app)
 bench = typer.Typer(help='Measurements over prompt files.', rich_markup_mode=None)
 app.add_typer(bench, name='bench')
 
@@ -106,6 +108,10 @@ AsRecorded = Annotated[
         help='Judge by the version, limits, tolerances and map that it was recorded with, though '
         'others are installed here.',
     ),
+]
+Trusted = Annotated[
+    Path | None,
+    typer.Option(metavar='KEY', help='Claim nothing unless one of these public keys signed it.'),
 ]
 Anything = {'allow_extra_args': True, 'ignore_unknown_options': True}
 
@@ -215,6 +221,7 @@ def verify_bag(
     iteration: Iteration = None,
     plots: Plots = None,
     as_recorded: AsRecorded = False,
+    trusted: Trusted = None,
     as_json: Json = False,
 ) -> None:
     """Recompute every margin from the bag alone, and hold the bag against its run folder."""
@@ -223,7 +230,7 @@ def verify_bag(
         from aurora_cli.commands.verify import verify_command
 
         return verify_command(
-            run_or_bag, iteration, plots, as_recorded=as_recorded, as_json=as_json
+            run_or_bag, iteration, plots, as_recorded=as_recorded, as_json=as_json, trusted=trusted
         )
 
     finish(command, as_json=as_json)
@@ -462,8 +469,8 @@ def run_command_line(arguments: list[str]) -> int:
     except Exception as err:  # noqa: BLE001  (the last place that can turn a defect into words)
         if os.environ.get('AURORA_TRACEBACK'):
             traceback.print_exc()
-        say(f'aurora: this is a defect of AURORA: {type(err).__name__}: {err}')
-        say('        set AURORA_TRACEBACK=1 to see where, and please report it')
+        say(f'aurora: {type(err).__name__}: {err}')
+        say(f'        {hint_for(err)}; AURORA_TRACEBACK=1 shows where')
         return BROKEN
     return int(result or 0)
 

@@ -6,14 +6,13 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from aurora_core.errors import AuroraError
-from aurora_core.report.visible import visible
+from aurora_core.report.visible import visible, visible_json
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -23,9 +22,6 @@ if TYPE_CHECKING:
 BROKEN = 4
 USAGE = 64
 INTERRUPTED = 130
-
-# What JSON lets through and a terminal obeys: DEL, the controls of Latin-1, direction marks.
-_OBEYED = re.compile('[\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]')
 
 
 class UsageProblem(Exception):  # noqa: N818  (a mistake of the user, not an error of ours)
@@ -49,7 +45,7 @@ def print_json(document: BaseModel | dict[str, Any]) -> None:
     """Write one JSON document to standard output."""
     value = document if isinstance(document, dict) else document.model_dump(mode='json')
     text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
-    sys.stdout.write(_OBEYED.sub(lambda found: f'\\u{ord(found[0]):04x}', text) + '\n')
+    sys.stdout.write(visible_json(text) + '\n')
     sys.stdout.flush()
 
 

@@ -20,6 +20,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from aurora_cli.ros_isolated import not_isolated, run_isolated
 from aurora_core.errors import ExecutionError
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.run_report import RunReport
@@ -62,6 +63,8 @@ def run_over_ros(
 ) -> tuple[RunReport, Path]:
     """Run a prompt on the graph and return its report and run folder.
 
+    Where no graph runs, one is started for it, in a network of its own where the kernel gives one.
+
     Args:
         request: Prompt and options.
         root: Folder of the run folders (absolute; the graph runs on this machine).
@@ -73,24 +76,57 @@ def run_over_ros(
         KeyboardInterrupt: Cancelled before the run began.
     """
     with _client_node() as node:
-        caller = Caller(node, HeartbeatWatch(node))
-        caller.prepare(on.RUN)
-        with _graph(caller, control.cancelled, tell):
-            result = caller.action(
-                on.RUN,
-                RunScenario.Goal(
-                    prompt=request.prompt,
-                    prompt_bytes=len(request.prompt.encode('utf-8')),
-                    options_json=_options(request, root),
-                ),
-                _RUN_S,
-                on_feedback=lambda feedback: control.progress(
-                    feedback.stage, feedback.fraction, feedback.sim_time_s
-                ),
-                cancelled=control.cancelled,
-                cancel_limit_s=_CANCEL_S,
-                raise_errors=False,
-            )
+        caller = _caller(node)
+        if _is_served(caller, _DISCOVERY_S):
+            return _run(caller, request, root, control)
+        why = not_isolated(request)
+        if why:
+            tell(f'no graph is running, starting one that others on this machine reach: {why}')
+            with _own_graph(caller, control.cancelled):
+                return _run(caller, request, root, control)
+    tell('no graph is running, starting one in a network of its own')
+    return run_isolated(request, root, control, tell)
+
+
+def run_on_own_graph(
+    request: RunRequest, root: Path, control: RunControl
+) -> tuple[RunReport, Path]:
+    """Run a prompt on a graph that is started for it, in the network that this process is in.
+
+    Raises:
+        ExecutionError: It cannot be started, or it gave no report.
+        KeyboardInterrupt: Cancelled before the run began.
+    """
+    with _client_node() as node:
+        caller = _caller(node)
+        with _own_graph(caller, control.cancelled):
+            return _run(caller, request, root, control)
+
+
+def _caller(node: Node) -> Caller:
+    caller = Caller(node, HeartbeatWatch(node))
+    caller.prepare(on.RUN)
+    return caller
+
+
+def _run(
+    caller: Caller, request: RunRequest, root: Path, control: RunControl
+) -> tuple[RunReport, Path]:
+    result = caller.action(
+        on.RUN,
+        RunScenario.Goal(
+            prompt=request.prompt,
+            prompt_bytes=len(request.prompt.encode('utf-8')),
+            options_json=_options(request, root),
+        ),
+        _RUN_S,
+        on_feedback=lambda feedback: control.progress(
+            feedback.stage, feedback.fraction, feedback.sim_time_s
+        ),
+        cancelled=control.cancelled,
+        cancel_limit_s=_CANCEL_S,
+        raise_errors=False,
+    )
     return _report(result), Path(result.run_dir)
 
 
@@ -142,14 +178,8 @@ def _client_node() -> Iterator[Node]:
 
 
 @contextmanager
-def _graph(
-    caller: Caller, cancelled: Callable[[], bool], tell: Callable[[str], None]
-) -> Iterator[None]:
-    """The running graph, else one that is started here and stopped afterwards."""
-    if _is_served(caller, _DISCOVERY_S):
-        yield
-        return
-    tell('no graph is running, starting one')
+def _own_graph(caller: Caller, cancelled: Callable[[], bool]) -> Iterator[None]:
+    """A graph that is started here and stopped afterwards."""
     try:
         _start(cancelled)
         if not _is_served(caller, _DISCOVERY_AFTER_START_S):

@@ -133,7 +133,9 @@ def test_a_defect_is_told_without_a_traceback_unless_asked(
 
     monkeypatch.setattr('aurora_cli.commands.maps.load_map', defect)
     assert run_command_line(['map', 'list']) == 4
-    assert 'defect of AURORA: ZeroDivisionError: oops' in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert 'ZeroDivisionError: oops' in said
+    assert 'this is a defect of AURORA' in said
     monkeypatch.setenv('AURORA_TRACEBACK', '1')
     run_command_line(['map', 'list'])
     assert 'Traceback' in capsys.readouterr().err

@@ -59,7 +59,7 @@ class Compiled:
         digest, payload = kept[_DIGEST_BYTES : 2 * _DIGEST_BYTES], kept[2 * _DIGEST_BYTES :]
         if kept[:_DIGEST_BYTES] != key or hashlib.sha256(payload).digest() != digest:
             return self.make()
-        return marshal.loads(payload)
+        return marshal.loads(payload)  # nosec B302
 
     def write(self) -> Path:
         """Make the value and keep it; a reader sees the old one or the new one.

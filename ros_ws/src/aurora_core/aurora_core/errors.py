@@ -7,7 +7,10 @@ Wire codes come in blocks of 100 per stage; ROS results and `report.json` carry 
 
 from __future__ import annotations
 
+import errno
 from typing import ClassVar
+
+_NO_MEMORY = ('failed to map segment', 'cannot allocate memory')
 
 
 class AuroraError(Exception):
@@ -123,6 +126,20 @@ class ReportError(AuroraError):
 
     default_code = 800
     default_component = 'report'
+
+
+def hint_for(err: BaseException) -> str:
+    """Return what to do about an exception that is none of ours: not all are defects."""
+    number = err.errno if isinstance(err, OSError) else None
+    told = str(err).lower()
+    # A library that finds no room when it is loaded says so in an ImportError.
+    if isinstance(err, MemoryError) or any(text in told for text in _NO_MEMORY):
+        return 'this process gets no more memory: end other programs, or raise ulimit -v'
+    if number in (errno.EMFILE, errno.ENFILE):
+        return 'no more files may be open: raise ulimit -n'
+    if number in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+        return 'free some room on the disk, or raise ulimit -f'
+    return 'this is a defect of AURORA: please report it'
 
 
 def error_class(code: int) -> type[AuroraError]:

@@ -12,7 +12,14 @@ from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_st
 from aurora_core.errors import ReportError
 from aurora_core.report.outputs import add_picture, write_page
 from aurora_core.report.run_documents import Unreadable, read_document
-from aurora_core.report.run_folder import PICTURE, REPORT, REPORT_HTML, RunFolder, is_run_id
+from aurora_core.report.run_folder import (
+    PICTURE,
+    REPORT,
+    REPORT_HTML,
+    SIGNED,
+    RunFolder,
+    is_run_id,
+)
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.terminal import line
 
@@ -53,6 +60,11 @@ def _make(folder: Path) -> None:
     report = read_document(folder / REPORT, RunReport)
     has_page = (folder / REPORT_HTML).exists()
     try:
+        if (folder / SIGNED).exists():
+            raise ReportError(
+                f'{folder.name} is signed and stays as it is',
+                hint='aurora picture RUN -o FILE draws it elsewhere',
+            )
         if isinstance(report, Unreadable):
             raise ReportError(
                 f'{folder.name} has no report: {report.why}',

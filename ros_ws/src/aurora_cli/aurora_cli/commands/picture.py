@@ -20,7 +20,7 @@ from aurora_core.report.picture.draw import draw_picture, png_bytes, svg_bytes
 from aurora_core.report.picture.paper import draw_paper, moment_lines, paper_bytes
 from aurora_core.report.picture.video import gif_bytes
 from aurora_core.report.run_documents import read_document
-from aurora_core.report.run_folder import PICTURE, REPORT
+from aurora_core.report.run_folder import PICTURE, REPORT, SIGNED
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.scene.caption import Caption
 from aurora_core.report.status import Status
@@ -87,6 +87,8 @@ def picture_command(run_or_bag: str, options: PictureOptions, *, as_json: bool) 
     if output is None:
         if found.run is None or options.iteration is not None:
             raise UsageProblem('of a bag alone or of an iteration, say where to: -o FILE')
+        if (found.run / SIGNED).exists():
+            raise UsageProblem('the run is signed and stays as it is, say where to: -o FILE')
         if options.video or options.style is PictureStyle.PAPER:
             output = found.run / f'{"video" if options.video else "figure"}{endings[0]}'
         else:

@@ -29,6 +29,7 @@ def verify_command(
     *,
     as_recorded: bool,
     as_json: bool,
+    trusted: Path | None = None,
 ) -> int:
     """Verify a bag and return the exit code.
 
@@ -39,16 +40,25 @@ def verify_command(
         as_recorded: Judge by the recorded version, limits, tolerances, settings and map, though
             they are others here.
         as_json: Print one JSON document.
+        trusted: File of public keys by one of which the run has to be signed.
 
     Raises:
-        UsageProblem: There is no such run or bag.
+        UsageProblem: There is no such run or bag, or no such key.
         AuroraError: The bag holds nothing that could be judged.
     """
     found = find_bag(run_or_bag, iteration)
+    verifier = None
+    if trusted is not None:
+        # Imported here: most verdicts need no key.
+        from aurora_cli.signing import load_trusted
+
+        verifier = load_trusted(trusted)
     try:
         with quiet_stdout():
             content, agsg = load_bag(found.bag)
-            report = verify_found(installed(), found, content, agsg, as_recorded=as_recorded)
+            report = verify_found(
+                installed(), found, content, agsg, as_recorded=as_recorded, trusted=verifier
+            )
     except AuroraError as err:
         if not as_json:
             print_unjudged(found.bag, err, answer_console())

@@ -125,7 +125,7 @@ class Machine:
     model: str = 'offline'
     checkout: Path | None = field(default_factory=lambda: checkout_of(Path(__file__)))
     proc: Path = Path('/proc')
-    shm: Path = Path('/dev/shm')
+    shm: Path = Path('/dev/shm')  # nosec
     temp: Path = field(default_factory=lambda: Path(tempfile.gettempdir()))
     python: tuple[int, int] = field(default_factory=lambda: sys.version_info[:2])
     uid: int = field(default_factory=os.getuid)
@@ -149,7 +149,7 @@ class Machine:
     def run_dir(self) -> Path:
         """Where `up` keeps pid files, ready files and logs of this domain."""
         named = self.environment.get('AURORA_RUN_DIR', '')
-        home = self.environment.get('HOME', '') or '/tmp'
+        home = self.environment.get('HOME', '') or '/tmp'  # nosec
         top = Path(named) if named else Path(home) / '.ros' / 'aurora'
         return top / f'domain-{self.domain_text}'
 

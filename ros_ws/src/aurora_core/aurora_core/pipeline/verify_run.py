@@ -19,6 +19,7 @@ from aurora_core.report.comparison import Comparison
 from aurora_core.report.facts import ExecutionFacts, RunFacts
 from aurora_core.report.find_bag import FoundBag
 from aurora_core.report.run_check import JudgedBag, check_run
+from aurora_core.report.signed_run import Verifier, check_signature
 from aurora_core.report.verify_report import AsRecorded, VerifyReport, verify_report
 from aurora_core.trace.bag_content import BagContent
 from aurora_core.trace.hashing import trace_hashes
@@ -31,6 +32,7 @@ def verify_found(
     agsg: Agsg,
     *,
     as_recorded: bool = False,
+    trusted: Verifier | None = None,
 ) -> VerifyReport:
     """Judge a bag by itself, then hold it against the run folder that it lies in.
 
@@ -40,6 +42,7 @@ def verify_found(
         content: What it holds.
         agsg: Graph in it.
         as_recorded: See `judge_content`.
+        trusted: Knows the keys by one of which the run has to be signed, None asks for none.
 
     Raises:
         VerificationError: The bag holds nothing that could be judged.
@@ -47,10 +50,18 @@ def verify_found(
     judged = judge_content(known, content, agsg, as_recorded=as_recorded)
     foreign = _foreign_to(judged, content) if as_recorded else None
     bag = _judged_bag(known, content, agsg, judged.verdict, judged.plan, judged.context)
-    if found.run is None:
-        return verify_report(str(found.bag), bag, as_recorded=foreign)
-    run, recorded = check_run(found.run, found.iteration, bag)
-    return verify_report(str(found.bag), bag, run=run, recorded=recorded, as_recorded=foreign)
+    signature = None if trusted is None else check_signature(found.run, trusted)
+    run, recorded = None, None
+    if found.run is not None:
+        run, recorded = check_run(found.run, found.iteration, bag)
+    return verify_report(
+        str(found.bag),
+        bag,
+        run=run,
+        recorded=recorded,
+        as_recorded=foreign,
+        signature=signature,
+    )
 
 
 def report_beside(

@@ -4,7 +4,7 @@
 
 A bag proves its own margins, not whose they are. Run id, prompt, map, seed, limits, faults, the
 documents of its iteration, trace hash and verdict have to be those of the folder. Who rewrites all
-of these in agreement is not found: that would take a signature.
+of these in agreement is not found here: that takes a signature (`signed_run`).
 """
 
 from __future__ import annotations

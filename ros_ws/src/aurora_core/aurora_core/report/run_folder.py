@@ -17,6 +17,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from aurora_core.errors import ReportError
+from aurora_core.report.visible import visible_json
 
 MANIFEST = 'manifest.json'
 PROMPT = 'prompt.txt'
@@ -25,6 +26,8 @@ REPORT_HTML = 'report.html'
 TRANSCRIPT = 'transcript.jsonl'
 RETRIEVAL = 'retrieval.json'
 PICTURE = 'picture.png'
+SIGNED = 'signed.json'
+SIGNATURE = 'signed.sig'
 
 _RUN_ID = re.compile(r'\d{8}T\d{6}Z-[0-9a-f]{6}')
 _TEMPORARY_PREFIX = '.writing-'
@@ -44,6 +47,15 @@ class StageFile(StrEnum):
     def name_at(self, iteration: int) -> str:
         """Return the file name at a repair iteration (from 0)."""
         return f'{self.value}.{iteration}.json'
+
+
+_PARTS = (MANIFEST, PROMPT, REPORT, REPORT_HTML, TRANSCRIPT, RETRIEVAL, PICTURE)
+_STAGE = re.compile(rf'(?:{"|".join(StageFile)})\.\d+\.json|bag\.\d+')
+
+
+def is_part_of_run(name: str) -> bool:
+    """Tell whether a file or folder of this name in a run folder is taken for one of the run."""
+    return name in _PARTS or _STAGE.fullmatch(name) is not None
 
 
 def new_run_id(utc: datetime, entropy: bytes) -> str:
@@ -209,14 +221,17 @@ class RunFolder:
 def json_text(document: BaseModel | dict[str, Any] | list[Any]) -> str:
     """Return the JSON text of a document, two blanks of indentation, newline at the end.
 
+    Who reads it in a terminal sees direction marks of a prompt as escapes.
+
     Raises:
         ReportError: A number is not finite, or a value has no JSON form.
     """
     value = document.model_dump(mode='json') if isinstance(document, BaseModel) else document
     try:
-        return json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + '\n'
+        text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
     except (ValueError, TypeError) as err:
         raise ReportError(f'a document cannot be written as JSON: {err}') from err
+    return visible_json(text) + '\n'
 
 
 def _sync_folder(path: Path) -> None:

@@ -11,9 +11,10 @@ from typing import Literal
 from aurora_core.document import Document
 from aurora_core.outcomes.verdict import Reason, Verdict, VerdictStatus
 from aurora_core.report.comparison import Comparison
-from aurora_core.report.doubts import doubted
+from aurora_core.report.doubts import Doubt, doubted
 from aurora_core.report.run_check import JudgedBag, RunCheck, unread
 from aurora_core.report.run_report import ClauseReport
+from aurora_core.report.signed_run import SignatureCheck
 from aurora_core.report.status import ExitCode, Status
 from aurora_core.trace.trace import Integrity
 
@@ -82,6 +83,7 @@ class VerifyReport(Document):
         run: What the run folder says, None for a bag that lies alone.
         unread: Clauses of the prompt that are not encoded, or not judged.
         as_recorded: Set when it was judged by something else than is installed.
+        signature: Of the run, None unless trusted keys were named.
     """
 
     schema_version: Literal[1] = 1
@@ -97,6 +99,13 @@ class VerifyReport(Document):
     run: RunCheck | None = None
     unread: tuple[ClauseReport, ...] = ()
     as_recorded: AsRecorded | None = None
+    signature: SignatureCheck | None = None
+
+    @property
+    def doubts(self) -> tuple[Doubt, ...]:
+        """Why the bag cannot be believed to be the one of its run: signature, then folder."""
+        signature = self.signature.doubts if self.signature is not None else ()
+        return (*signature, *(self.run.doubts if self.run is not None else ()))
 
 
 def verify_report(
@@ -106,6 +115,7 @@ def verify_report(
     run: RunCheck | None = None,
     recorded: Comparison | None = None,
     as_recorded: AsRecorded | None = None,
+    signature: SignatureCheck | None = None,
 ) -> VerifyReport:
     """Return the report about a bag.
 
@@ -115,8 +125,10 @@ def verify_report(
         run: What its run folder says, None when it lies alone.
         recorded: Another verdict about the same run.
         as_recorded: By what it was judged, when not by what is installed.
+        signature: Of its run, where trusted keys were named.
     """
-    verdict = doubted(bag.verdict, run.doubts if run is not None else ())
+    doubts = signature.doubts if signature is not None else ()
+    verdict = doubted(bag.verdict, (*doubts, *(run.doubts if run is not None else ())))
     report = VerifyReport(
         bag=name,
         outcome=_outcome(verdict, recorded, run, bag.clauses, as_recorded),
@@ -130,6 +142,7 @@ def verify_report(
         run=run,
         unread=unread(bag.clauses),
         as_recorded=as_recorded,
+        signature=signature,
     )
     return VerifyReport.model_validate({**dict(report), 'summary': _summary(report)})
 
@@ -169,6 +182,9 @@ def _summary(report: VerifyReport) -> str:
         said.insert(0, f'Nothing is claimed: {_why(report)}.')
     if report.as_recorded is not None:
         said.insert(0, _judged_by(report.as_recorded))
+    if report.signature is not None and not report.signature.doubts:
+        signature = report.signature
+        said.insert(0, f'Signed by {signature.key}, {signature.files} files as signed.')
     said += _limits_of(report)
     if report.run is None:
         said.append('No run folder: the bag was judged by itself.')
@@ -205,7 +221,7 @@ def _judged_by(foreign: AsRecorded) -> str:
 def _why(report: VerifyReport) -> str:
     """Return the first thing that keeps a verdict from being one, and how many there are."""
     verdict = report.verdict
-    reasons = [doubt.text for doubt in report.run.doubts] if report.run is not None else []
+    reasons = [doubt.text for doubt in report.doubts]
     if verdict.integrity is not Integrity.INTACT and not reasons:
         reasons += verdict.notes or (f'the recording is {verdict.integrity.value}',)
     reasons += [finding.text for finding in verdict.cross_check]

@@ -15,6 +15,8 @@ import unicodedata
 # Cc: control characters of ASCII and Latin-1; Cf: direction marks and other signs without a shape.
 _HIDDEN = ('Cc', 'Cf', 'Cs', 'Co', 'Zl', 'Zp')
 _BLANKS = re.compile(r'[\t\n\r]+')
+# What JSON lets through and a terminal obeys: DEL, the controls of Latin-1, direction marks.
+_OBEYED = re.compile('[\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]')
 
 
 def visible(text: str) -> str:
@@ -30,6 +32,11 @@ def visible(text: str) -> str:
 def one_line(text: str) -> str:
     """Return visible text on a single line: line breaks and tabs become blanks."""
     return visible(_BLANKS.sub(' ', text))
+
+
+def visible_json(text: str) -> str:
+    """Return JSON text of the same value, with what a terminal would obey in it escaped."""
+    return _OBEYED.sub(lambda found: f'\\u{ord(found[0]):04x}', text)
 
 
 def _shown(character: str) -> str:

@@ -100,7 +100,7 @@ def read_metadata(folder: Path) -> BagMetadata:
     try:
         text = read_bytes(path, _SIZE_LIMIT)
         _check_form(text)
-        document = yaml.load(text, Loader=_LOADER)  # noqa: S506  (a safe loader)
+        document = yaml.load(text, Loader=_LOADER)  # noqa: S506  (a safe loader)  # nosec B506
         info = document['rosbag2_bagfile_information']
         custom = info.get('custom_data') or {}
         length = custom.get(_BYTES)

@@ -99,3 +99,14 @@ def test_numbers_that_are_not_finite_are_refused(folder: RunFolder) -> None:
     with pytest.raises(ReportError, match='Unicode'):
         folder.write_text('prompt.txt', '\udcff')
     assert list(folder.path.iterdir()) == []
+
+
+def test_no_mark_of_a_prompt_turns_the_writing_of_a_document(tmp_path: Path) -> None:
+    folder = RunFolder(tmp_path, '20260131T120000Z-0a1b2c')
+    folder.create()
+    document = {'prompt': 'hover \u202eDEIFIREV\u202c \x1b[2J \x9b1A é 木'}
+    path = folder.write_json('report.json', document)
+    text = path.read_text(encoding='utf-8')
+    assert json.loads(text) == document
+    assert not any(mark in text for mark in '\u202e\u202c\x1b\x9b')
+    assert 'é 木' in text

