@@ -132,6 +132,12 @@ def run_prompt(
             metavar='N', help='Run N seeds from --seed on: how often is it verified, by how much?'
         ),
     ] = None,
+    autopilot: Annotated[
+        str,
+        typer.Option(
+            metavar='udp://HOST:PORT', help='Fly real time with autopilots of your own, as PX4.'
+        ),
+    ] = '',
     picture: Annotated[
         bool, typer.Option('--picture', help='Draw picture.png, too; aurora open does so later.')
     ] = False,
@@ -156,6 +162,7 @@ def run_prompt(
             allow_relax=allow_relax,
             repair=0 if no_repair else repair,
             faults=tuple(fault or ()),
+            autopilot=autopilot,
         )
         if seeds is not None:
             if picture:

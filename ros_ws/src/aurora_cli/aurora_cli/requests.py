@@ -39,6 +39,7 @@ class RunOptions:
     allow_relax: bool = False
     repair: int | None = None
     faults: tuple[str, ...] = ()
+    autopilot: str = ''
 
 
 def checked(options: RunOptions) -> RunRequest:
@@ -55,6 +56,8 @@ def checked(options: RunOptions) -> RunRequest:
         raise UsageProblem(f'--transcripts: there is no folder {options.transcripts}')
     if options.engine not in ('local', 'ros'):
         raise UsageProblem(f'--engine is local or ros, found {options.engine}')
+    if options.autopilot and options.engine != 'local':
+        raise UsageProblem('--autopilot is for the local engine: leave --engine out')
     try:
         check_seed(options.seed)
     except ValueError as err:
@@ -73,7 +76,9 @@ def checked(options: RunOptions) -> RunRequest:
             'history_frozen': options.freeze_history,
             'transcripts': _absolute_folder(options.transcripts),
             'allow_relax': options.allow_relax,
-            'repair': options.repair,
+            # Each realisation is flown in real time: only as many as are asked for.
+            'repair': 0 if options.autopilot and options.repair is None else options.repair,
+            'autopilot': options.autopilot,
             'faults': tuple(fault(text) for text in options.faults),
         }
     )

@@ -31,6 +31,7 @@ from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 from aurora_core.report.visible import one_line
 from aurora_core.report.wordings import wordings
 from aurora_core.temporal.words import named
+from aurora_core.trace.air_clock import paced_lines
 
 _COLOURS = {
     Status.VERIFIED: 'green',
@@ -122,6 +123,8 @@ def _print_all(report: RunReport, console: Console) -> None:
         line(console, f'trace    {trace.sha256} ({trace.ticks} ticks, {trace.integrity.value})')
         if trace.motion_sha256:
             line(console, f'motion   {trace.motion_sha256}')
+        for text in paced_lines(trace.clocks):
+            line(console, f'paced    {text}')
         for finding in trace.cross_check:
             line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
 
@@ -391,6 +394,8 @@ def print_verify(report: VerifyReport, console: Console) -> None:
     )
     for note in verdict.notes:
         line(console, f'note     {note}')
+    for text in paced_lines(verdict.clocks):
+        line(console, f'paced    {text}')
     for finding in verdict.cross_check:
         line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
     for clause in report.unread:
