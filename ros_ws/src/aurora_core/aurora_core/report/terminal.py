@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -178,7 +179,7 @@ def print_check(report: CheckReport, console: Console, *, brief: bool = False) -
     print_table(
         'A run would be judged by',
         ('condition', 'formula'),
-        [(c.sentence, c.formula) for c in report.conditions],
+        [(c.sentence, _rounded(c.formula)) for c in report.conditions],
         console,
     )
     print_realised(report.requested_and_realised, console)
@@ -197,6 +198,11 @@ def print_check(report: CheckReport, console: Console, *, brief: bool = False) -
         line(console, f'times    exclude each other where it was placed: {report.conflict}')
     if report.horizon_s is not None:
         line(console, f'horizon  {report.horizon_s:g} s of simulated time')
+
+
+def _rounded(formula: str) -> str:
+    """Return a formula with numbers as people read them; documents keep every digit."""
+    return re.sub(r'\d+\.\d{6,}', lambda found: f'{float(found[0]):.6g}', formula)
 
 
 def _safe(text: str) -> str:
