@@ -75,7 +75,7 @@ class PacedLink:
         self._interval_s = _FIRST_ROUND_TRIP_S
         self._ask_s = self._greet_s = transport.steady_time_s()
         self._ack_of = (-1, -1)
-        self._ack: int | None = None
+        self._acks: list[int] = []
         self._text = ''
 
     def wait(self, done: Callable[[], bool], until_s: float) -> bool:
@@ -135,7 +135,7 @@ class PacedLink:
 
     def _command(self, system_id: int, what: str, command: int, *parameters: float) -> int:
         filled = (*parameters, *(0.0 for _ in range(7 - len(parameters))))
-        self._ack_of, self._ack, self._text = (system_id, command), None, ''
+        self._ack_of, self._acks, self._text = (system_id, command), [], ''
         end_s = self._transport.steady_time_s() + self._timeout_s
         confirmation = 0
         while (now_s := self._transport.steady_time_s()) < end_s:
@@ -145,10 +145,9 @@ class PacedLink:
                 )
             )
             confirmation = min(confirmation + 1, 255)
-            if self.wait(lambda: self._ack is not None, min(now_s + _REPEAT_S, end_s)):
-                assert self._ack is not None
+            if self.wait(lambda: bool(self._acks), min(now_s + _REPEAT_S, end_s)):
                 self._ack_of = (-1, -1)
-                return self._ack
+                return self._acks[0]
         raise self.silent(f'{what} of system {system_id}')
 
     def silent(self, what: str) -> SimulatorSilentError:
@@ -214,7 +213,7 @@ class PacedLink:
         command, result, _, _, target_system, _ = COMMAND_ACK.unpack(frame.payload)
         awaited = (frame.system_id, command) == self._ack_of
         if awaited and target_system in (0, OWN_SYSTEM) and result != _IN_PROGRESS:
-            self._ack = int(result)
+            self._acks.append(int(result))
 
     def _take_rare(self, frame: Frame, told: Told, received_s: float) -> None:
         m: Any = self._decoder.decode(frame)
