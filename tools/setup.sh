@@ -40,5 +40,5 @@ for candidate in "${candidates[@]}"; do
   fi
 done
 echo "setup: error: no Python 3.11 or 3.12 found (tried: ${candidates[*]});" \
-  "install one (Debian, Ubuntu: apt install python3 python3-venv python3-dev) or name it with PYTHON=…" >&2
+  "install one (Debian, Ubuntu: apt install python3 python3-venv python3-dev g++ make libgl1 libxext6 libxrender1) or name it with PYTHON=…" >&2
 exit 1

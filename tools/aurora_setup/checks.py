@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import importlib.util
 import os
 import shutil
@@ -15,6 +16,13 @@ from layout import SYSTEM, SYSTEM_PREFIX, WHEELS, Layout
 
 # The virtual environment takes 1.6 GB, the build 0.2 GB, pip's cache and unpacking the rest.
 DISK_NEEDED_BYTES = 4 * 1000**3
+# What SUMO's wheels are linked with and do not bring along, and the Debian package of each.
+LIBRARIES = {
+    'libX11.so.6': 'libx11-6',
+    'libXext.so.6': 'libxext6',
+    'libXrender.so.1': 'libxrender1',
+    'libGL.so.1': 'libgl1',
+}
 
 
 def check_machine(layout: Layout, *, fresh: bool) -> None:
@@ -28,6 +36,7 @@ def check_machine(layout: Layout, *, fresh: bool) -> None:
         SetupError: With what is missing and what to install.
     """
     check_compiler()
+    check_libraries()
     check_python_parts(layout)
     if fresh:
         check_disk(layout.root)
@@ -66,6 +75,24 @@ def check_compiler() -> None:
             f'no {" and no ".join(missing)} on PATH; install a C++ compiler and make '
             '(Debian, Ubuntu: apt install g++ make)'
         )
+
+
+def check_libraries() -> None:
+    """Refuse a machine without the libraries that SUMO loads, though it draws nothing here."""
+    missing = [name for name in LIBRARIES if not _loads(name)]
+    if missing:
+        raise SetupError(
+            f'SUMO needs {", ".join(missing)}, which this machine lacks; install them '
+            f'(Debian, Ubuntu: apt install {" ".join(LIBRARIES[name] for name in missing)})'
+        )
+
+
+def _loads(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
 
 
 def check_python_parts(layout: Layout) -> None:

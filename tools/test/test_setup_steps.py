@@ -75,6 +75,15 @@ def test_a_missing_compiler_is_reported_with_what_to_install(
         checks.check_compiler()
 
 
+def test_libraries_of_sumo_are_missed_before_anything_is_installed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    checks.check_libraries()
+    monkeypatch.setitem(checks.LIBRARIES, 'libnowhere.so.1', 'libnowhere1')
+    with pytest.raises(SetupError, match=r'libnowhere\.so\.1, which .*apt install libnowhere1\)'):
+        checks.check_libraries()
+
+
 @pytest.mark.parametrize(
     ('ros', 'tag', 'message'),
     [

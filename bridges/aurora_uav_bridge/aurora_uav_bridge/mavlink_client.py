@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable
-from math import nan
 
 import numpy as np
 from pymavlink.dialects.v20 import common as mavlink
@@ -15,7 +14,6 @@ from aurora_core.errors import AirSimulatorError
 from aurora_core.geometry.frames import enu_to_geodetic, yaw_enu_to_compass_deg
 from aurora_core.ports.simulators import AirLoad, FloatArray, UavHome
 from aurora_core.trace.layout import (
-    UAV_COMMAND_WIDTH,
     UAV_WIDTH,
     UavColumn,
     UavCommandColumn,
@@ -27,16 +25,15 @@ from aurora_uav_bridge.errors import (
     SimulatorHeldError,
     SimulatorSilentError,
 )
+from aurora_uav_bridge.flight_commands import change_mode, check_advance
 from aurora_uav_bridge.lockstep_link import OWN_COMPONENT, OWN_SYSTEM, LockstepLink
 from aurora_uav_bridge.transports import Transport
-from aurora_uav_sim.autopilot import FlightMode
 from aurora_uav_sim.protocol import (
     AUTOPILOT_COMPONENT,
     CMD_LOCKSTEP,
     CMD_SEED,
     CMD_WIND,
     MAX_NONCE,
-    MAX_TICK,
     OWNER_SILENCE_S,
     fleet_masks,
     seed_words,
@@ -49,10 +46,6 @@ _HELD_PAUSE_S = 0.25
 # Leaving must not hold up the end of a run for long.
 _LEAVE_LIMIT_S = 0.5
 _GLOBAL = int(mavlink.MAV_FRAME_GLOBAL)
-_ARM = int(mavlink.MAV_CMD_COMPONENT_ARM_DISARM)
-_TAKEOFF = int(mavlink.MAV_CMD_NAV_TAKEOFF)
-_LAND = int(mavlink.MAV_CMD_NAV_LAND)
-_SET_MODE = int(mavlink.MAV_CMD_DO_SET_MODE)
 _SET_HOME = int(mavlink.MAV_CMD_DO_SET_HOME)
 _REBOOT = int(mavlink.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN)
 
@@ -140,17 +133,7 @@ class MavlinkClient:
             SessionLostError: The simulator restarted or serves another client.
         """
         homes = self._homes
-        if self._tick < 0 or tick != self._tick + 1 or tick > MAX_TICK:
-            raise AirSimulatorError(
-                f'air simulator at tick {self._tick}: expected tick {self._tick + 1} next, '
-                f'found {tick}',
-                hint='call load, then advance by one tick at a time',
-            )
-        if commands.shape != (len(homes), UAV_COMMAND_WIDTH):
-            raise AirSimulatorError(
-                f'air commands at tick {tick}: expected shape '
-                f'({len(homes)}, {UAV_COMMAND_WIDTH}), found {commands.shape}'
-            )
+        check_advance(homes, self._tick, tick, commands)
         link = self._link
         if homes and link is not None:
             rows: list[list[float]] = commands.tolist()
@@ -161,8 +144,13 @@ class MavlinkClient:
             ]
             for i, mode in enumerate(wanted):
                 if mode is not self._modes[i]:
-                    altitude_m = rows[i][UavCommandColumn.TAKEOFF_ALTITUDE]
-                    self._change_mode(link, i, mode, altitude_m)
+                    above_m = rows[i][UavCommandColumn.TAKEOFF_ALTITUDE]
+                    change_mode(
+                        link, homes[i], mode,
+                        armed=self._state[i, UavColumn.ARMED] == 1.0,
+                        landed=self._state[i, UavColumn.LANDED] == 1.0,
+                        takeoff_m=self._altitude_m + above_m,
+                    )  # fmt: skip
                     self._modes[i] = mode
             set_points = [
                 conversions.set_point_fields(home, tick, row)
@@ -243,31 +231,3 @@ class MavlinkClient:
                 return
             while (left_s := again_s - transport.steady_time_s()) > 0.0:
                 transport.receive(left_s)  # telemetry for anybody
-
-    def _change_mode(
-        self, link: LockstepLink, i: int, mode: UavMode, takeoff_altitude_m: float
-    ) -> None:
-        """Bring a vehicle into a mode by MAVLink commands with checked answers."""
-        home = self._homes[i]
-        system_id = home.system_id
-        armed = self._state[i, UavColumn.ARMED] == 1.0
-        if mode is UavMode.TAKEOFF:
-            link.command(system_id, 'arm', _ARM, 1.0)
-            altitude_m = self._altitude_m + takeoff_altitude_m
-            link.command(system_id, 'take off', _TAKEOFF, 0.0, 0.0, 0.0, nan, nan, nan, altitude_m)
-        elif mode is UavMode.OFFBOARD:
-            main, sub = FlightMode.OFFBOARD.value
-            custom = float(mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
-            link.command(
-                system_id, 'set mode offboard', _SET_MODE, custom, float(main), float(sub)
-            )
-            if not armed:
-                link.command(system_id, 'arm', _ARM, 1.0)
-        elif mode is UavMode.LAND:
-            link.command(system_id, 'land', _LAND, 0.0, 0.0, 0.0, nan, nan, nan, 0.0)
-        elif armed:
-            if self._state[i, UavColumn.LANDED] != 1.0:
-                raise CommandRefusedError(
-                    f'{home.uav_id}: expected LAND before IDLE, found it in the air'
-                )
-            link.command(system_id, 'disarm', _ARM, 0.0)

@@ -11,8 +11,10 @@ from collections import deque
 from collections.abc import Hashable
 from math import nan
 from typing import Protocol
+from urllib.parse import urlsplit
 
-from aurora_uav_sim.signing import Signer
+from aurora_core.errors import ConfigError
+from aurora_uav_sim.signing import KEY_FILE_VARIABLE, KeyFileError, Signer, signer_from
 
 _RECEIVE_BUFFER_BYTES = 1 << 20
 
@@ -144,6 +146,35 @@ class LoopbackTransport:
     def close(self) -> None:
         """Forget what was not read."""
         self._inbox.clear()
+
+
+def autopilot_transport(url: str) -> Transport:
+    """Return the way to autopilots, signed where `AURORA_MAVLINK_KEY_FILE` names a key.
+
+    Args:
+        url: `udp://HOST:PORT`.
+
+    Raises:
+        ConfigError: It is none, or the key cannot be read.
+    """
+    try:
+        parts = urlsplit(url)
+        port = parts.port
+    except ValueError:
+        port = None
+    if not port or parts.scheme != 'udp' or not parts.hostname or parts.path or parts.query:
+        raise ConfigError(
+            f'expected an autopilot such as udp://127.0.0.1:14540, found {url!r}',
+            hint='HOST and PORT are where it listens',
+        )
+    try:
+        signer = signer_from()
+        plain = UdpTransport(port, parts.hostname)
+    except KeyFileError as err:
+        raise ConfigError(str(err), hint=f'unset {KEY_FILE_VARIABLE}, or mend it') from err
+    except OSError as err:
+        raise ConfigError(f'{url}: {err.strerror or err}', hint='is the host name right?') from err
+    return plain if signer is None else SignedTransport(plain, signer)
 
 
 class SignedTransport:

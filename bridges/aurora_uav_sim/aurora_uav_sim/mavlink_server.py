@@ -390,6 +390,7 @@ class SimServer:
             silent_s = self._wall_s - self._station_heard_s
         for vehicle in self.vehicles.values():
             vehicle.run(steps, MAX_SUBSTEP_S)
+            vehicle.since_step_s = self._lag_s
             vehicle.pilot.link_silent_s = silent_s
             vehicle.pilot.step(steps * MAX_SUBSTEP_S)
 

@@ -203,7 +203,7 @@ class Services:
         if m.tc1 != 0:
             # An answer to a question that this simulator never asks.
             return []
-        now_ns = int(vehicle.autopilot.time_s * 1e9 + 0.5)
+        now_ns = int((vehicle.autopilot.time_s + vehicle.since_step_s) * 1e9 + 0.5)
         return [sequence.encode(mavlink.MAVLink_timesync_message(now_ns, m.ts1))]
 
     def _ping(

@@ -22,6 +22,11 @@ class SignedServer:
         self._server = server
         self._signer = signer
 
+    @property
+    def in_lockstep(self) -> bool:
+        """Whether a session is open."""
+        return self._server.in_lockstep
+
     def handle(self, datagram: bytes, source: Hashable) -> list[bytes]:
         """Act on a datagram: on signed frames as ever, on unsigned ones as far as one may look."""
         signed, plain = self._signer.parts(datagram)

@@ -9,6 +9,7 @@ import errno
 import gc
 import math
 import os
+import select
 import signal
 import socket
 import struct
@@ -18,6 +19,7 @@ from collections.abc import Hashable
 from pathlib import Path
 from types import FrameType
 
+from aurora_uav_sim.late_link import LateLink
 from aurora_uav_sim.mavlink_server import SimServer
 from aurora_uav_sim.protocol import (
     MAX_FLEET,
@@ -32,6 +34,8 @@ LOOPBACK = '127.0.0.1'
 # How often time passes, s of steady time.
 _POLL_S = 0.01
 _RECEIVE_BUFFER_BYTES = 1 << 20
+# Worse clocks and links than any that a paced run is for.
+_MAX_DRIFT_PPM, _MAX_JITTER_MS = 10_000.0, 1000.0
 
 Address = tuple[str, int]
 
@@ -60,6 +64,16 @@ def _arguments(argv: list[str]) -> argparse.Namespace:
         help='a lockstep session may be taken over after its owner was silent for so long '
         '(default: %(default)s)',
     )  # fmt: skip
+    late = parser.add_argument_group('to try clients with, not in lockstep')
+    late.add_argument(
+        '--clock-drift', type=float, default=0.0, metavar='PPM',
+        help='the clock counts so many millionths more per second (default: %(default)s)',
+    )  # fmt: skip
+    late.add_argument(
+        '--jitter', type=float, default=0.0, metavar='MS',
+        help='each datagram takes a time drawn evenly from 0 to this (default: %(default)s)',
+    )  # fmt: skip
+    late.add_argument('--jitter-seed', type=int, default=1, help='seed of those times')
     # `ros2 run` and launch files add these; there is nothing of ROS here to configure.
     own = argv[: argv.index('--ros-args')] if '--ros-args' in argv else argv
     options = parser.parse_args(own)
@@ -68,6 +82,10 @@ def _arguments(argv: list[str]) -> argparse.Namespace:
         parser.error(f'expected 1 to {MAX_FLEET} vehicles with system ids 1 to {MAX_SYSTEM_ID}')
     if not 0.0 < options.owner_silence < math.inf:
         parser.error(f'expected seconds of silence above 0, found {options.owner_silence}')
+    if not abs(options.clock_drift) <= _MAX_DRIFT_PPM:
+        parser.error(f'expected a drift of at most {_MAX_DRIFT_PPM:g} ppm')
+    if not 0.0 <= options.jitter <= _MAX_JITTER_MS:
+        parser.error(f'expected a jitter from 0 to {_MAX_JITTER_MS:g} ms')
     if options.port is None:
         try:
             options.port = mavlink_port(
@@ -127,6 +145,10 @@ def _serve(sock: socket.socket, server: SimServer | SignedServer, stop: _Stop) -
             # Nothing came in one period, or an earlier datagram met a closed port.
             pass
         else:
+            if not server.in_lockstep:
+                # Who asks for the time is told the present one.
+                for destination, out in server.poll(time.monotonic()):
+                    _send(sock, out, destination)
             for reply in server.handle(datagram, source):
                 _send(sock, reply, source)
         now_s = time.monotonic()
@@ -134,6 +156,21 @@ def _serve(sock: socket.socket, server: SimServer | SignedServer, stop: _Stop) -
             for destination, out in server.poll(now_s):
                 _send(sock, out, destination)
             next_poll_s = now_s + _POLL_S
+
+
+def _serve_late(sock: socket.socket, link: LateLink, stop: _Stop) -> None:
+    sock.setblocking(False)
+    while not stop.asked:
+        now_s = time.monotonic()
+        for destination, out in link.pass_time(now_s):
+            _send(sock, out, destination)
+        wait_s = _POLL_S if (next_s := link.next_s()) is None else min(next_s - now_s, _POLL_S)
+        if select.select([sock], [], [], max(wait_s, 0.0))[0]:
+            try:
+                datagram, source = sock.recvfrom(65536)
+            except (BlockingIOError, ConnectionError):
+                continue
+            link.take(datagram, source, time.monotonic())
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -166,6 +203,21 @@ def main(argv: list[str] | None = None) -> int:
         )
         gc.freeze()
         host, port = sock.getsockname()
+        served = server if signer is None else SignedServer(server, signer)
+        late = None
+        if options.clock_drift or options.jitter:
+            start_s = time.monotonic()
+            late = LateLink(
+                served,
+                drift_ppm=options.clock_drift,
+                jitter_s=1e-3 * options.jitter,
+                seed=options.jitter_seed,
+                start_s=start_s,
+            )
+            sys.stdout.write(
+                f'uav_sim: clock {options.clock_drift:+g} ppm from CLOCK_MONOTONIC {start_s!r}, '
+                f'datagrams up to {options.jitter:g} ms late\n'
+            )
         sys.stdout.write(f'uav_sim: {options.count} vehicle(s) on UDP {host}:{port}\n')
         sys.stdout.flush()
         ready = os.environ.get('AURORA_READY_FILE')
@@ -174,7 +226,10 @@ def main(argv: list[str] | None = None) -> int:
             temporary = Path(f'{ready}.{os.getpid()}')
             temporary.write_text(f'{port}\n', encoding='ascii')
             temporary.replace(ready)
-        _serve(sock, server if signer is None else SignedServer(server, signer), stop)
+        if late is not None:
+            _serve_late(sock, late, stop)
+        else:
+            _serve(sock, served, stop)
     return 0
 
 

@@ -31,6 +31,7 @@ class Vehicle:
         pilot: Missions, return and failsafes; at rest in lockstep.
         latitude_deg: Of the local origin (longitude_deg, altitude_m above sea level).
         home: Home position around the local origin, ENU, m.
+        since_step_s: What its clock is past the last physics step, for which there is a state.
     """
 
     def __init__(self, system_id: int, seat: int) -> None:
@@ -38,6 +39,7 @@ class Vehicle:
         self.autopilot = Autopilot()
         self._seat = seat
         self.home: tuple[float, float, float] = (0.0, 0.0, 0.0)
+        self.since_step_s = 0.0
         self.pilot = Pilot(self)
         self.place_default()
 
@@ -52,6 +54,7 @@ class Vehicle:
         )
         self.altitude_m = DEFAULT_ALTITUDE_M
         self._yaw_enu_rad = 0.0
+        self.since_step_s = 0.0
         self.autopilot.wind.set(0.0, 0.0, 0.0, 0.0)
         self.restart()
         self.pilot.clear()

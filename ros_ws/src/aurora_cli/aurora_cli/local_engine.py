@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from aurora_cli.collector import no_collection
@@ -18,6 +19,8 @@ from aurora_core.pipeline import functions
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
 from aurora_core.pipeline.verification import Judged, judge_content, load_bag
+from aurora_core.ports.simulators import AirSimulator
+from aurora_core.trace.air_clock import AirClock
 from aurora_core.trace.bag_reader import BagContent
 from aurora_core.trace.definitions import message_definitions
 from aurora_llm.parse import read_prompt
@@ -81,13 +84,10 @@ class LocalStages:
         # Imported here: `aurora check` and `aurora verify` need no simulator.
         from aurora_cli.local_run import run_lockstep
         from aurora_sumo_bridge.sumo_client import SumoClient
-        from aurora_uav_bridge.mavlink_client import MavlinkClient
-        from aurora_uav_bridge.transports import LoopbackTransport
-        from aurora_uav_sim.mavlink_server import SimServer
 
         execution = self.execution(agsg, request)
         system_ids = tuple(entry.system_id for entry in execution.roster.uavs)
-        air = MavlinkClient(LoopbackTransport(SimServer(system_ids or (1,))))
+        air, clocks = self.air(request, system_ids or (1,))
         return run_lockstep(
             run_id=bag_directory.parent.name,
             agsg=agsg,
@@ -97,7 +97,24 @@ class LocalStages:
             bag_directory=bag_directory,
             definitions=message_definitions(),
             control=control,
+            clocks=clocks,
         )
+
+    def air(
+        self, request: RunRequest, system_ids: tuple[int, ...]
+    ) -> tuple[AirSimulator, Callable[[], tuple[AirClock, ...]] | None]:
+        """Return what flies, and what tells its clocks where it keeps its own time."""
+        if request.autopilot:
+            from aurora_uav_bridge.paced_client import PacedClient
+            from aurora_uav_bridge.transports import autopilot_transport
+
+            paced = PacedClient(autopilot_transport(request.autopilot))
+            return paced, paced.clocks
+        from aurora_uav_bridge.mavlink_client import MavlinkClient
+        from aurora_uav_bridge.transports import LoopbackTransport
+        from aurora_uav_sim.mavlink_server import SimServer
+
+        return MavlinkClient(LoopbackTransport(SimServer(system_ids))), None
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Recompute every margin from the bag."""

@@ -8,7 +8,7 @@ applied to reach tick k + 1; everything is recorded with the tick it belongs to.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import closing
 from itertools import chain
 from operator import attrgetter
@@ -24,6 +24,7 @@ from aurora_core.execution.step_output import StepOutput
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.pipeline.stages import ExecutionResult, RunControl
 from aurora_core.ports.simulators import AirSimulator, FloatArray, GroundSimulator
+from aurora_core.trace.air_clock import AIR_CLOCKS, AirClock, clocks_note
 from aurora_core.trace.bag_writer import BagWriter
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.hashing import trace_hashes
@@ -76,6 +77,11 @@ def _in_turn(records: Iterable[tuple[Record, ...]]) -> tuple[Record, ...]:
     return tuple(sorted(chain.from_iterable(records), key=attrgetter('sequence')))
 
 
+def _note(writer: BagWriter, clocks: Callable[[], tuple[AirClock, ...]] | None) -> None:
+    if clocks is not None and (known := clocks()):
+        writer.note(AIR_CLOCKS, clocks_note(known))
+
+
 def run_lockstep(
     *,
     run_id: str,
@@ -86,8 +92,11 @@ def run_lockstep(
     bag_directory: Path,
     definitions: MessageDefinitions,
     control: RunControl,
+    clocks: Callable[[], tuple[AirClock, ...]] | None = None,
 ) -> ExecutionResult:
     """Run to the end of the scenario, record it, return where and what.
+
+    `clocks` tells of autopilots that keep their own time: before the first tick, and at the end.
 
     Raises:
         AuroraError: A simulator or the recording broke; what was recorded so far stays readable.
@@ -108,6 +117,7 @@ def run_lockstep(
         ground_rows = ground.state()
         if has_uavs:
             air.load(execution.air_load)
+            _note(writer, clocks)
         uav_rows = air.state() if has_uavs else ground_rows[:0, :0]
         tick = 0
         while True:
@@ -125,6 +135,7 @@ def run_lockstep(
             ground_rows = ground.advance(tick, output.ground_commands)
             if has_uavs:
                 uav_rows = air.advance(tick, output.uav_commands)
+        _note(writer, clocks)
     trace = collected.trace()
     hashes = trace_hashes(trace, execution.world)
     return ExecutionResult.model_validate(

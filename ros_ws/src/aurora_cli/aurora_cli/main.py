@@ -148,6 +148,12 @@ def run_prompt(
             metavar='N', help='Run N seeds from --seed on: how often is it verified, by how much?'
         ),
     ] = None,
+    autopilot: Annotated[
+        str,
+        typer.Option(
+            metavar='udp://HOST:PORT', help='Fly real time with autopilots of your own, as PX4.'
+        ),
+    ] = '',
     picture: Annotated[
         bool, typer.Option('--picture', help='Draw picture.png, too; aurora open does so later.')
     ] = False,
@@ -174,6 +180,7 @@ def run_prompt(
             repair=0 if no_repair else repair,
             faults=tuple(fault or ()),
             elsewhere=Elsewhere(jobs=jobs, dask=dask),
+            autopilot=autopilot,
         )
         if seeds is not None:
             if picture:

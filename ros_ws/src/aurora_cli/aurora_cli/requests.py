@@ -41,6 +41,7 @@ class RunOptions:
     repair: int | None = None
     faults: tuple[str, ...] = ()
     elsewhere: Elsewhere = HERE
+    autopilot: str = ''
 
 
 def checked(options: RunOptions) -> RunRequest:
@@ -59,6 +60,10 @@ def checked(options: RunOptions) -> RunRequest:
         raise UsageProblem(f'--engine is local or ros, found {options.engine}')
     if options.engine == 'ros' and options.elsewhere != HERE:
         raise UsageProblem('--jobs and --dask are for candidates of the local engine')
+    if options.autopilot and options.engine != 'local':
+        raise UsageProblem('--autopilot is for the local engine: leave --engine out')
+    if options.autopilot and options.elsewhere != HERE:
+        raise UsageProblem('--autopilot flies one run at a time: leave --jobs and --dask out')
     try:
         check_seed(options.seed)
     except ValueError as err:
@@ -77,7 +82,9 @@ def checked(options: RunOptions) -> RunRequest:
             'history_frozen': options.freeze_history,
             'transcripts': _absolute_folder(options.transcripts),
             'allow_relax': options.allow_relax,
-            'repair': options.repair,
+            # Each realisation is flown in real time: only as many as are asked for.
+            'repair': 0 if options.autopilot and options.repair is None else options.repair,
+            'autopilot': options.autopilot,
             'faults': tuple(fault(text) for text in options.faults),
         }
     )

@@ -9,8 +9,9 @@ from typing import Self
 
 from pydantic import FiniteFloat, model_validator
 
-from aurora_core.document import Document
+from aurora_core.document import Document, omitted
 from aurora_core.spec.parameter import Provenance, Span
+from aurora_core.trace.air_clock import AirClock
 from aurora_core.trace.trace import Integrity
 
 VERDICT_VERSION = 1
@@ -123,6 +124,7 @@ class Verdict(Document):
         cross_check: Disagreements of record and recomputation.
         integrity: State of the recording.
         notes: For people.
+        clocks: Of autopilots that kept their own time; () of a run in lockstep.
     """
 
     schema_version: int = VERDICT_VERSION
@@ -131,6 +133,7 @@ class Verdict(Document):
     cross_check: tuple[Finding, ...] = ()
     integrity: Integrity
     notes: tuple[str, ...] = ()
+    clocks: tuple[AirClock, ...] = omitted(())
 
     @property
     def worst(self) -> ConditionResult | None:

@@ -15,7 +15,7 @@ from typing import Annotated, Any, Literal, Protocol
 
 from pydantic import AfterValidator, ConfigDict, Field, ValidationError
 
-from aurora_core.document import Document
+from aurora_core.document import Document, omitted
 from aurora_core.errors import SpecError
 from aurora_core.execution.faults import Fault
 from aurora_core.outcomes.agsg import Agsg
@@ -43,6 +43,8 @@ class RunRequest(Document):
             in when it is verified; None without one.
         history_frozen: The history takes nothing in.
         transcripts: Folder of recorded replies that stand for every named model; None asks them.
+        autopilot: `udp://HOST:PORT` of autopilots that keep their own time; '' flies the
+            simulated ones in lockstep.
     """
 
     # An error that quotes its input would tell the secret that it refuses.
@@ -59,6 +61,7 @@ class RunRequest(Document):
     history: Path | None = None
     history_frozen: bool = False
     transcripts: Path | None = None
+    autopilot: str = omitted('')
 
 
 def request_of(values: Mapping[str, Any], where: str = 'the request') -> RunRequest:

@@ -17,6 +17,7 @@ from aurora_core.judging.evaluation import Context
 from aurora_core.knowledge.basis import Basis, Tables
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.world import WorldModel
+from aurora_core.monitor.clock_doubt import with_clocks
 from aurora_core.monitor.plan_check import NotComparable, Plan, finding
 from aurora_core.monitor.verify import context_of, verify
 from aurora_core.outcomes.agsg import Agsg
@@ -148,7 +149,8 @@ def judge_content(
         progress=progress,
         context=context,
     )
-    return Judged(verdict=verdict, plan=plan, conditions=conditions, context=context)
+    told = with_clocks(verdict, content.air_clocks)
+    return Judged(verdict=told, plan=plan, conditions=conditions, context=context)
 
 
 def recomputed_content(

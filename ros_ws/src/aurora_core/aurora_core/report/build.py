@@ -199,6 +199,7 @@ def _trace(facts: RunFacts) -> TraceReport | None:
         notes=verdict.notes if verdict is not None else (),
         cross_check=verdict.cross_check if verdict is not None else (),
         verdict=verdict.status if verdict is not None else None,
+        clocks=verdict.clocks if verdict is not None else (),
     )
 
 

@@ -21,6 +21,7 @@ from aurora_core.report.run_report import ClauseReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.visible import visible
+from aurora_core.trace.air_clock import paced_lines
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template
@@ -176,6 +177,7 @@ def _environment() -> Environment:
     )
     environment.filters['could_be'] = could_be
     environment.filters['number'] = number
+    environment.filters['paced_lines'] = paced_lines
     environment.filters['margin_value'] = margin_value
     environment.filters['status_word'] = status_word
     return environment

@@ -19,6 +19,7 @@ from aurora_core.report.said_back import ElementReport
 from aurora_core.report.status import Status
 from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.vocabulary import ClauseStatus
+from aurora_core.trace.air_clock import AirClock
 from aurora_core.trace.trace import Integrity
 
 
@@ -213,6 +214,7 @@ class TraceReport(Document):
         cross_check: Where the executor's record and the recomputation disagree.
         verdict: What the trace alone shows, apart from the prompt's clauses; None when it was not
             judged (cancelled, broken).
+        clocks: Of autopilots that kept their own time; () of a run in lockstep.
     """
 
     bag: str
@@ -223,6 +225,7 @@ class TraceReport(Document):
     notes: tuple[str, ...] = ()
     cross_check: tuple[Finding, ...] = ()
     verdict: VerdictStatus | None = None
+    clocks: tuple[AirClock, ...] = omitted(())
 
 
 class BagReport(Document):

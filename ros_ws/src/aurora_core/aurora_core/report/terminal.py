@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -31,6 +32,7 @@ from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 from aurora_core.report.visible import one_line
 from aurora_core.report.wordings import wordings
 from aurora_core.temporal.words import named
+from aurora_core.trace.air_clock import paced_lines
 
 _COLOURS = {
     Status.VERIFIED: 'green',
@@ -122,6 +124,8 @@ def _print_all(report: RunReport, console: Console) -> None:
         line(console, f'trace    {trace.sha256} ({trace.ticks} ticks, {trace.integrity.value})')
         if trace.motion_sha256:
             line(console, f'motion   {trace.motion_sha256}')
+        for text in paced_lines(trace.clocks):
+            line(console, f'paced    {text}')
         for finding in trace.cross_check:
             line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
 
@@ -175,7 +179,7 @@ def print_check(report: CheckReport, console: Console, *, brief: bool = False) -
     print_table(
         'A run would be judged by',
         ('condition', 'formula'),
-        [(c.sentence, c.formula) for c in report.conditions],
+        [(c.sentence, _rounded(c.formula)) for c in report.conditions],
         console,
     )
     print_realised(report.requested_and_realised, console)
@@ -194,6 +198,11 @@ def print_check(report: CheckReport, console: Console, *, brief: bool = False) -
         line(console, f'times    exclude each other where it was placed: {report.conflict}')
     if report.horizon_s is not None:
         line(console, f'horizon  {report.horizon_s:g} s of simulated time')
+
+
+def _rounded(formula: str) -> str:
+    """Return a formula with numbers as people read them; documents keep every digit."""
+    return re.sub(r'\d+\.\d{6,}', lambda found: f'{float(found[0]):.6g}', formula)
 
 
 def _safe(text: str) -> str:
@@ -391,6 +400,8 @@ def print_verify(report: VerifyReport, console: Console) -> None:
     )
     for note in verdict.notes:
         line(console, f'note     {note}')
+    for text in paced_lines(verdict.clocks):
+        line(console, f'paced    {text}')
     for finding in verdict.cross_check:
         line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
     for clause in report.unread:

@@ -18,6 +18,7 @@ import numpy.typing as npt
 from aurora_core.errors import BagError
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.trace import messages
+from aurora_core.trace.air_clock import AirClock
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.hashing import world_sha256
 from aurora_core.trace.layout import GROUND_WIDTH, UAV_COMMAND_WIDTH, UAV_WIDTH
@@ -65,15 +66,20 @@ class BagContent:
         trace: States, commands and claims, with the integrity of the recording.
         world: The measured world.
         agsg_message: The last Agsg message (decoded), None when there is none.
+        air_clocks: Of autopilots that kept their own time; () of a run in lockstep.
     """
 
     trace: Trace
     world: WorldModel
     agsg_message: Any
+    air_clocks: tuple[AirClock, ...] = ()
 
 
 def content_of(
-    stored: Iterable[StoredMessage], known_damage: Iterable[tuple[Integrity, str]], where: str
+    stored: Iterable[StoredMessage],
+    known_damage: Iterable[tuple[Integrity, str]],
+    where: str,
+    air_clocks: tuple[AirClock, ...] = (),
 ) -> BagContent:
     """Return the trace and the world that messages hold.
 
@@ -81,6 +87,7 @@ def content_of(
         stored: Messages of one run; of one topic in the order in which they were published.
         known_damage: What is known to be wrong with them.
         where: Where they come from, for errors.
+        air_clocks: Of autopilots that kept their own time.
 
     Raises:
         BagError: Roster or world is missing or damaged.
@@ -111,7 +118,7 @@ def content_of(
         damage.append((Integrity.ALTERED, f'{messages.WORLD}: it does not match its digest'))
     agsg = decoded[messages.AGSG][-1] if decoded[messages.AGSG] else None
     trace = _Assembly(roster, decoded, damage, where).trace()
-    return BagContent(trace=trace, world=world, agsg_message=agsg)
+    return BagContent(trace=trace, world=world, agsg_message=agsg, air_clocks=air_clocks)
 
 
 def worst(damage: Iterable[tuple[Integrity, str]]) -> Integrity:

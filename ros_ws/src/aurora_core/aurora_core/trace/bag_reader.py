@@ -17,6 +17,7 @@ from rosbags.serde import SerdeError
 
 from aurora_core.errors import BagError
 from aurora_core.trace import messages
+from aurora_core.trace.air_clock import AIR_CLOCKS, AirClock, read_clocks
 from aurora_core.trace.bag_content import (
     RERUN,
     BagContent,
@@ -56,11 +57,13 @@ class StoredBag:
         folder: Of the bag.
         messages: In the order of the file.
         damage: Of the files; what is wrong with the content shows in `content_of`.
+        air_clocks: Of autopilots that kept their own time.
     """
 
     folder: Path
     messages: tuple[StoredMessage, ...]
     damage: tuple[tuple[Integrity, str], ...]
+    air_clocks: tuple[AirClock, ...] = ()
 
 
 def bag_files(path: Path) -> tuple[Path, ...]:
@@ -99,7 +102,7 @@ def read_bag(path: Path, definitions: MessageDefinitions) -> BagContent:
         BagError: There is no bag, or it lacks the roster or the world.
     """
     bag = read_stored(path, definitions)
-    return content_of(bag.messages, bag.damage, where=str(path))
+    return content_of(bag.messages, bag.damage, str(path), bag.air_clocks)
 
 
 def read_stored(path: Path, definitions: MessageDefinitions) -> StoredBag:
@@ -115,11 +118,15 @@ def read_stored(path: Path, definitions: MessageDefinitions) -> StoredBag:
     files = bag_files(path)
     damage: Damage = []
     stored: list[StoredMessage] = []
+    clocks: tuple[AirClock, ...] = ()
     for file in files:
         reading = FileReading(file, definitions)
         stored += reading.messages()
         damage += reading.damage
-    return StoredBag(folder=files[0].parent, messages=tuple(stored), damage=tuple(damage))
+        clocks = reading.air_clocks or clocks
+    return StoredBag(
+        folder=files[0].parent, messages=tuple(stored), damage=tuple(damage), air_clocks=clocks
+    )
 
 
 class FileReading:
@@ -133,6 +140,7 @@ class FileReading:
         damage: What is wrong, once `messages` has come to its end.
         defects: Those that are in the structure of the file.
         metadata: Of the recording, None when there is none that can be read.
+        air_clocks: Of autopilots that kept their own time.
     """
 
     def __init__(self, file: Path, definitions: MessageDefinitions) -> None:
@@ -164,6 +172,7 @@ class FileReading:
         self.damage: Damage = []
         self.defects: list[Defect] = []
         self.metadata: BagMetadata | None = None
+        self.air_clocks: tuple[AirClock, ...] = ()
 
     def messages(self) -> Iterator[StoredMessage]:
         """Yield what the topics of a trace carry; afterwards `damage` is complete."""
@@ -253,6 +262,11 @@ class FileReading:
                     f'recovered from a damaged bag: {note[:500]}',
                 )
             )
+        elif record.name == AIR_CLOCKS:
+            try:
+                self.air_clocks = read_clocks(record.metadata)
+            except ValueError:
+                self._foreign.append((Integrity.ALTERED, 'the record of the clocks is damaged'))
         elif record.name == CHECKPOINT:
             self._checkpoint_seen = True
             self._take_in()

@@ -17,7 +17,8 @@ from pathlib import Path
 from mcap.records import Channel, Message, Schema
 
 from aurora_core.errors import BagError
-from aurora_core.trace.bag_content import Damage, content_of, note_of, worst
+from aurora_core.trace.air_clock import AIR_CLOCKS, clocks_note
+from aurora_core.trace.bag_content import content_of, note_of, worst
 from aurora_core.trace.bag_metadata import file_sha256, read_metadata
 from aurora_core.trace.bag_reader import FileReading, bag_files
 from aurora_core.trace.bag_writer import BagWriter
@@ -94,7 +95,7 @@ def recover_bag(path: Path, out: Path | None, definitions: MessageDefinitions) -
     digest = file_sha256(source)
     outcome = Outcome.ALREADY
     if not _is_recovery_of(folder, digest):
-        _write(source, folder, digest, reading.damage, definitions)
+        _write(source, folder, digest, reading, definitions)
         outcome = Outcome.RECOVERED
     return _recovery(outcome, source, folder, trace, _kept(source), reading)
 
@@ -168,7 +169,7 @@ def _write(
     source: Path,
     folder: Path,
     digest: str,
-    damage: Damage,
+    reading: FileReading,
     definitions: MessageDefinitions,
 ) -> None:
     # Made aside and renamed: a recovery that is cut short itself leaves no half bag.
@@ -179,11 +180,13 @@ def _write(
             writer.note(
                 RECOVERY,
                 {
-                    'integrity': worst(damage).value,
-                    'note': note_of(damage),
+                    'integrity': worst(reading.damage).value,
+                    'note': note_of(reading.damage),
                     'from_sha256': digest,
                 },
             )
+            if reading.air_clocks:
+                writer.note(AIR_CLOCKS, clocks_note(reading.air_clocks))
             _copy(source, writer)
         (aside / folder.name).rename(folder)
     except OSError as err:

@@ -94,6 +94,16 @@ def test_a_failed_condition_is_marked_without_colour_too(make: SimpleNamespace) 
     assert any(line.split()[:2] == ['NO', 'uav1'] for line in _text(console).splitlines())
 
 
+def test_a_check_rounds_what_nobody_reads(make: SimpleNamespace) -> None:
+    check = build_check(make.facts(execution=None, verdict=None))
+    long = check.conditions[0].model_copy(
+        update={'formula': 'always (x(uav1) >= -3.0300000000000002 m), [31.242886006438244, 2.5]'}
+    )
+    console = _plain()
+    print_check(check.model_copy(update={'conditions': (long,)}), console)
+    assert 'always (x(uav1) >= -3.03 m), [31.2429, 2.5]' in _text(console)
+
+
 def test_a_check_says_how_a_run_would_be_judged(make: SimpleNamespace) -> None:
     console = _plain()
     print_check(build_check(make.facts(execution=None, verdict=None)), console)

@@ -299,3 +299,28 @@ def test_it_prints_in_black_on_white(opened: Open) -> None:
     )
     assert min(corner) > 200
     assert page.pdf().startswith(b'%PDF')
+
+
+def test_names_stay_whole_on_a_narrow_screen(opened: Open) -> None:
+    """No name is broken in two; a path breaks behind its slashes alone."""
+    page = opened(viewport={'width': 400, 'height': 900})
+    lines = """cells => cells.map(cell => {
+        const range = document.createRange();
+        range.selectNodeContents(cell);
+        return [cell.textContent, new Set([...range.getClientRects()].map(r => r.top)).size];
+    })"""
+    names = page.locator('#understood td > code').evaluate_all(lines)
+    assert 'motorcycle1' in [text for text, _ in names]
+    assert all(count == 1 for _, count in names), names
+    paths = page.locator('#realised td > code').evaluate_all(lines)
+    assert paths
+    assert all(count <= text.count('/') + 1 for text, count in paths), paths
+    apart = """cells => cells.map(cell => {
+        const name = document.createRange();
+        name.selectNodeContents(cell.lastChild);
+        const colour = cell.firstChild.getBoundingClientRect();
+        return Math.abs(name.getBoundingClientRect().top - colour.top);
+    })"""
+    bodies = page.locator('#bodies td:first-child').evaluate_all(apart)
+    assert bodies
+    assert max(bodies) < 10, 'a body and its colour stand in different lines'
