@@ -74,6 +74,7 @@ class MissionMachine:
         stays_up: Something has to happen before it may land: its last mission goes on until then.
         done: It has landed, or held its place long enough where it is not to land.
         way_there: To its mission.
+        staying: Its mission is to stay where it is.
     """
 
     def __init__(self, plan: UavPlan, settings: FlightSettings, dt_s: float) -> None:
@@ -90,7 +91,7 @@ class MissionMachine:
         self._route: RouteReference | None = None
         self._flown: MissionPlan | None = None
         self._turning: TurningOffset | None = None
-        self._staying: Staying | None = None
+        self.staying: Staying | None = None
         self._landing_spot: tuple[float, float] | None = None
         self._return_altitude_m = 0.0
         self._descending = self._waits = self._airborne = False
@@ -298,7 +299,7 @@ class MissionMachine:
             self._index, self._laps = phase - _MISSION, 0
             mission = self.plan.missions[self._index]
             self.capture_tick = self._turning = None
-            self._staying = None if mission.rest_mps is None else Staying(mission.rest_mps)
+            self.staying = None if mission.rest_mps is None else Staying(mission.rest_mps)
             if not mission.keeps_level and self.phase != _ASCENT:
                 self._level_m = None  # what is asked for during the ascent still counts
             self.way_there = Crossing(mission.over_m)
@@ -352,8 +353,8 @@ class MissionMachine:
         if mission.hover_point is not None:
             x_m, y_m, _ = mission.hover_point
             return (x_m, y_m, z_m), (0.0, 0.0)
-        if self._staying is not None:
-            x_m, y_m = self._staying.goal(self._pursuit.rest_point(self._settings)[:2])
+        if self.staying is not None:
+            x_m, y_m = self.staying.goal(self._pursuit.rest_point(self._settings)[:2])
             return (x_m, y_m, z_m), (0.0, 0.0)
         if target is None:  # The target is gone: hold where the reference is.
             return (self._pursuit.x, self._pursuit.y, z_m), (0.0, 0.0)
@@ -381,7 +382,7 @@ class MissionMachine:
         target: TargetMotion | None,
     ) -> bool:
         x, y, z = state[_X : _Z + 1]
-        stays_m = None if self._staying is None else self._staying.away_m(state)
+        stays_m = None if self.staying is None else self.staying.away_m(state)
         if abs(z - self._altitude_m(mission)) > mission.capture_altitude_m:
             return False
         if stays_m is not None:

@@ -25,6 +25,11 @@ class Staying:
         self._goal: tuple[float, float] | None = None
         self._point: tuple[float, float] | None = None
 
+    @property
+    def at(self) -> tuple[float, float] | None:
+        """Where the set-point goes (x, y in m), None before its first step."""
+        return self._goal
+
     def goal(self, rest: tuple[float, float]) -> tuple[float, float]:
         """Return where the set-point goes (x, y in m): to where it came to rest at first.
 
