@@ -120,6 +120,7 @@ def _judge(case: Case, requirement: Requirement, uav: str, segment: Segment) -> 
             {
                 **requirement,
                 'target': None,
+                missions.SOMEWHERE: True,
             },
         )
         doubt = cannot_tell(f'no place {requirement["target"]!r} in the recorded world')

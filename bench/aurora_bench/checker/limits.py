@@ -51,6 +51,10 @@ SPEED_SHARE = 0.80
 HOVER_DRIFT_CALM_M = 2.0
 HOVER_DRIFT_WIND_M = 3.0
 
+# Who stays where it is brakes at least so much, and is so far from its set-point at most.
+GENTLE_MPS2 = 1.5
+FOLLOWS_M = 5.0
+
 # Actions.
 # Capture follows within this after the ascent, apart from the way there (s).
 CAPTURE_S = 30.0

@@ -43,6 +43,8 @@ HOVER_POINT_DOUBT_M = 0.5
 ABOVE = 'from above'
 # A stated bound on the drift of a hover, m.
 DRIFT = 'stated drift'
+# Marks a hover at a place that is not known.
+SOMEWHERE = 'somewhere'
 
 
 def judge(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
@@ -185,6 +187,8 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
         altitude(flight, requirement, start),
         _duration(flight, requirement, early, late),
     ]
+    if not flight.targets and flight.segment.number and not requirement.get(SOMEWHERE):
+        parts.append(_stays_where_it_was(flight, point))
     if flight.targets:
         parts += [
             _over(flight, requirement, point, start),
@@ -192,6 +196,18 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
             _seen(flight, start),
         ]
     return all_of([*parts, *avoided(flight, requirement)])
+
+
+def _stays_where_it_was(flight: Flight, point: FloatArray) -> Judged:
+    """Return whether a hover at no place is where the mission before has led its UAV.
+
+    It may have braked from the speed that it had then, as gently as a leg is flown.
+    """
+    scene, start = flight.scene, flight.segment.start
+    speed = float(scene.speed(flight.uav)[start])
+    reach = speed * speed / (2.0 * limits.GENTLE_MPS2) + limits.FOLLOWS_M
+    away = float(np.linalg.norm(scene.xy(flight.uav)[start] - point))
+    return decide(away <= reach, f'{away:.1f} m from where it was, braking takes {reach:.1f} m')
 
 
 def _over(flight: Flight, requirement: Mapping[str, Any], point: FloatArray, tick: int) -> Judged:

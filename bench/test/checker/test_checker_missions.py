@@ -604,3 +604,37 @@ def test_who_flies_nothing_else_waits_for_its_event_on_the_ground(
     event = {'kind': 'event', 'ref': 'e1', 'trigger': {'on': 'time', 'at_s': 5}, 'action': change}
     others = [{**HOVER, 'uav': uav} for uav in mine]
     assert stage.says(event, *others) == outcome
+
+
+STAYS = {'kind': 'mission', 'ref': 'm2', 'uav': 'drone', 'mode': 'hover', 'altitude_m': 50}
+
+
+@pytest.mark.parametrize(
+    ('aside_m', 'outcome'),
+    # It hovers at (210, 30) at first; at 8 m/s it may brake for 21.3 m, and 5 m more.
+    [(0.0, 'holds'), (4.0, 'holds'), (26.0, 'does_not')],
+)
+def test_a_hover_at_no_place_after_another_mission_is_where_that_has_led(
+    stage: Any, aside_m: float, outcome: str
+) -> None:
+    stage.uav(
+        'drone',
+        lambda t: (210 + np.clip(8.0 * (t - 30.1), 0.0, aside_m), 30, 50),
+        ends=(30.0, 55.0),
+    )
+    first = {**HOVER, 'duration_s': 20}
+    assert stage.outcomes(first, STAYS) == ['holds', outcome]
+
+
+@pytest.mark.parametrize(('on_m', 'outcome'), [(15.0, 'holds'), (60.0, 'does_not')])
+def test_who_hovers_where_it_is_may_brake_and_does_not_fly_on(
+    make_stage: Any, on_m: float, outcome: str
+) -> None:
+    stage = make_stage(90.0)
+    stage.drive('car1', 'car', 8.0)
+    stage.uav(
+        'drone',
+        lambda t: (8.0 * np.minimum(t, 45.0) + np.clip(8.0 * (t - 45.0), 0.0, on_m), 28.35, 40),
+        ends=(45.0, 80.0),
+    )
+    assert stage.outcomes(TRACK, {**STAYS, 'altitude_m': 40}) == ['holds', outcome]

@@ -281,6 +281,22 @@ def _lower(plan: UavPlan) -> UavPlan:
     return UavPlan.model_validate(document)
 
 
+def _home_again(plan: UavPlan) -> UavPlan:
+    """Plan to hover over the start where the UAV is to stay where it is."""
+    missions = tuple(
+        m
+        if m.is_placed
+        else m.model_copy(
+            update={
+                'hover_point': (plan.home_x_m, plan.home_y_m, m.altitude_m),
+                'rest_mps': None,
+            }
+        )
+        for m in plan.missions
+    )
+    return plan.model_copy(update={'missions': missions})
+
+
 def _straight(plan: UavPlan) -> UavPlan:
     """Plan to fly straight to what is to be come to from above."""
     missions = tuple(m.model_copy(update={'over_m': None}) for m in plan.missions)
@@ -393,6 +409,12 @@ PLANTED = (
         with_machines(plan=_straight),
         'condition:safety.clearance.uav1',
         'condition:safety.collision.uav1',
+    ),
+    _planted(
+        'elsewhere instead of where it is',
+        'A drone tracks the ego car for 20 seconds, then hovers for 10 seconds.',
+        with_machines(plan=_home_again),
+        'condition:m2.drift',
     ),
     _planted(
         'faster than a stated bound',

@@ -80,14 +80,28 @@ class Detours:
         """
         if machine.captured or tick % round(_LOOKS_EVERY_S / dt_s):
             return
+        x, y, z = state[UavColumn.X : UavColumn.Z + 1].tolist()
+        if machine.staying is not None:
+            self._keep_clear(machine, z)
+            return
         goal = _goal(machine, target)
         if goal is None:
             return
-        x, y, z = state[UavColumn.X : UavColumn.Z + 1].tolist()
         if self.is_straight((x, y, z), goal):
             machine.way_there.straight()
         elif not machine.way_there.by or tick % round(_PLANS_EVERY_S / dt_s) == 0:
             machine.way_there.by = self.way((x, y, z), goal)
+
+    def _keep_clear(self, machine: MissionMachine, z: float) -> None:
+        """Let who stays where it is stay as high, too, where its own height is not free there."""
+        mission, at = machine.mission, None if machine.staying is None else machine.staying.at
+        if mission is None or at is None or mission.keeps_level:
+            return
+        up_or_down = ((*at, z), (*at, mission.altitude_m))
+        if self._free(up_or_down, self._clearance_m):
+            machine.way_there.straight()
+        elif not machine.way_there.by:
+            machine.way_there.by = ((*at, z),)
 
     def is_straight(self, here: Point3, goal: Point3) -> bool:
         """Tell whether the straight way is free at both heights."""
@@ -161,8 +175,8 @@ def _goal(machine: MissionMachine, target: TargetMotion | None) -> Point3 | None
         x_m, y_m = mission.offset_m
         return target.x_m + x_m, target.y_m + y_m, mission.altitude_m
     index = machine.plan.missions.index(mission)
-    followed = index > 0 and machine.plan.missions[index - 1].mode is _TRACK
-    if index == 0 or not (mission.waits or followed):
+    before = machine.plan.missions[index - 1] if index > 0 else None
+    if before is None or not (mission.waits or before.mode is _TRACK or not before.is_placed):
         return None
     return mission.waypoints[0] if mission.waypoints else mission.hover_point
 

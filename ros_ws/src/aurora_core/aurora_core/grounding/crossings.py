@@ -6,10 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.planned_flight import PlannedFlight, first_point, last_point
+from aurora_core.grounding.planned_flight import (
+    PlannedFlight,
+    first_point,
+    last_point,
+)
 from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.mission.plan import MissionPlan
 from aurora_core.spec.vocabulary import MissionMode
@@ -44,17 +47,28 @@ def crossed(
         speed_mps: Of tracked targets.
     """
     found = list(flights[:1])
-    for before, flight in pairwise(flights):
-        after = flight.plan
-        goal = first_point(after, site)
-        starts = _ends_of(before.plan, site, speed_mps)
-        if not all(_is_straight(airspace, s, goal, clearance_m) for s in starts):
-            over_m = way_over(airspace, starts, goal, clearance_m, top_m)
-            if over_m is None and before.plan.mode is not MissionMode.TRACK:
+    before = flights[0].plan
+    ends = _ends_of(before, site, speed_mps)
+    for flight in flights[1:]:
+        after, update = flight.plan, {}
+        if not after.is_placed:
+            # It stays where it is, and as high where no altitude is stated.
+            height_m = found[-1].plan.altitude_m if after.keeps_level else after.altitude_m
+            ways = [(end, (*end[:2], height_m)) for end in ends]
+            is_free = all(airspace.way_is_free(way, clearance_m) for way in ways)
+            if not is_free and before.mode is not MissionMode.TRACK:
                 return None
-            if over_m is not None:
-                flight = replace(flight, plan=after.model_copy(update={'over_m': over_m}))
-        found.append(flight)
+            ends, update = [above for _, above in ways], {'altitude_m': height_m}
+        else:
+            goal = first_point(after, site)
+            if not all(_is_straight(airspace, s, goal, clearance_m) for s in ends):
+                over_m = way_over(airspace, ends, goal, clearance_m, top_m)
+                if over_m is None and before.mode is not MissionMode.TRACK:
+                    return None
+                update = {} if over_m is None else {'over_m': over_m}
+            before, ends = after, _ends_of(after, site, speed_mps)
+        plan = after.model_copy(update=update) if update else after
+        found.append(replace(flight, plan=plan))
     return tuple(found)
 
 

@@ -44,12 +44,14 @@ from aurora_core.grounding.routes_flown import RoutePlanner
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.starts import Starts, uncrossed
+from aurora_core.grounding.staying import staying
 from aurora_core.grounding.watched import Watcher
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.mission.plan import MissionPlan, UavPlan
+from aurora_core.spec.flight_order import stays_where_it_is
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
@@ -155,6 +157,9 @@ class FlightPlanner:
             others: Where other UAVs are.
         """
         mission = inside_bound(mission, self._limits, self._tolerances)
+        if stays_where_it_is(spec, mission):
+            plan = self._hold_plan(mission)
+            return staying(spec, mission, plan, self._limits, self._tolerances)
         if mission.mode is MissionMode.TRACK:
             return self._track(spec, mission, site, speed_mps)
         found = self._at_place(spec, mission, site, speed_mps, others)
@@ -163,14 +168,13 @@ class FlightPlanner:
             return found
         # A landmark stands where it stands: higher up is the way out that the request leaves open.
         top_m = min(mission.altitude_m.high, self._limits.uav_altitude_max_m)
-        height_m = mission.altitude_m.value + _HIGHER_M
-        while height_m <= top_m:
+        height_m = mission.altitude_m.value
+        while (height_m := height_m + _HIGHER_M) <= top_m:
             altitude = mission.altitude_m.model_copy(update={'value': height_m})
             higher = mission.model_copy(update={'altitude_m': altitude})
             above = self._at_place(spec, higher, site, speed_mps, others)
             if not isinstance(above, Rejected):
                 return above
-            height_m += _HIGHER_M
         return found
 
     def _at_place(
@@ -280,9 +284,8 @@ class FlightPlanner:
     def with_landing_spots(self, plan: UavPlan, site: Site) -> UavPlan:
         """Add the free spots along everything that the UAV flies over."""
         spots = list(plan.landing_spots)
-        for mission in plan.missions:
-            for x, y in landing_areas(mission, site):
-                spots += [s for s in self._spots.near(x, y) if s not in spots]
+        for x, y in (area for m in plan.missions for area in landing_areas(m, site)):
+            spots += [s for s in self._spots.near(x, y) if s not in spots]
         return UavPlan.model_validate({**plan.model_dump(), 'landing_spots': tuple(spots)})
 
     def _track(
@@ -301,8 +304,7 @@ class FlightPlanner:
         targets = _at_height(samples[:, :2], record.height_m / 2.0)
         share = self._share(spec, mission)
         if loses_sight(spec, mission):
-            farthest_m = self._limits.uav_standoff_max_m
-            for asked in from_afar(mission, farthest_m):
+            for asked in from_afar(mission, self._limits.uav_standoff_max_m):
                 found = self._watching(asked, samples, targets, share, gets_lost=True)
                 if found is not None and found.seen >= self._tolerances.visible_fraction + _SPARE:
                     return found
@@ -380,7 +382,7 @@ class FlightPlanner:
             yield radius_m * cos(angle), radius_m * sin(angle)
         yield from offsets(mission, np.array(centre), self._spread)
         stands_off = mission.standoff_m is not None and mission.standoff_m.value > 0.0
-        middle = (centre[0], centre[1], self._planned_height_m(mission))
+        middle = (*centre[:2], self._planned_height_m(mission))
         if stands_off or others.leave(middle):
             return
         for ring in (1, 2):
@@ -394,8 +396,7 @@ class FlightPlanner:
 
         A height that is stated is come to from above, one that is not may be another.
         """
-        x, y, _ = point
-        if not self._air.is_inside(x, y) or self._starts.lead_to(point):
+        if not self._air.is_inside(*point[:2]) or self._starts.lead_to(point):
             return False
         stated = mission.altitude_m.provenance is Provenance.EXPLICIT
         return not stated or self._starts.over(point, (), self._limits.uav_altitude_max_m) is None
@@ -445,9 +446,8 @@ class FlightPlanner:
         targets: FloatArray,
         others: Neighbours,
     ) -> PlannedFlight | Rejected:
-        reason, air = 'clearance', self._air
-        if is_landmark(mission.target):
-            air = air.looking_at(*centre[:2])
+        reason, look = 'clearance', is_landmark(mission.target)
+        air = self._air.looking_at(*centre[:2]) if look else self._air
         for offset in self._hover_places(mission, centre, others):
             point = (centre[0] + offset[0], centre[1] + offset[1], self._planned_height_m(mission))
             if not others.leave(point):

@@ -99,7 +99,12 @@ def first_point(plan: MissionPlan, site: Site, lead_m: float = 0.0) -> Point3:
 
 
 def landing_areas(plan: MissionPlan, site: Site) -> list[tuple[float, float]]:
-    """Return round which points a UAV may land after a mission (x, y in m)."""
+    """Return round which points a UAV may land after a mission (x, y in m).
+
+    None of their own has a hover where the one before has led.
+    """
+    if not plan.is_placed:
+        return []
     if plan.mode is MissionMode.TRACK:
         seat = site.seat(plan.target or '')
         assert seat is not None

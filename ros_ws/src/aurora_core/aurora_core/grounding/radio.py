@@ -10,7 +10,12 @@ from math import dist
 import numpy as np
 
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.planned_flight import PlannedFlight, Point3, first_point, last_point
+from aurora_core.grounding.planned_flight import (
+    PlannedFlight,
+    Point3,
+    first_point,
+    last_point,
+)
 from aurora_core.grounding.sites import Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
@@ -46,7 +51,8 @@ def link_score(
 
     def places(body: str) -> list[Point3]:
         if body in flights:
-            ends = [(first_point(f.plan, site), _end(f, site)) for f in flights[body]]
+            placed = [f for f in flights[body] if f.plan.is_placed]
+            ends = [(first_point(f.plan, site), _end(f, site)) for f in placed]
             return list(dict.fromkeys(place for both in ends for place in both))
         seat = site.seat(body)
         if seat is None:

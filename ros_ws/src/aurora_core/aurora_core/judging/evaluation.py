@@ -203,6 +203,8 @@ class Context:
 
         None where none does.
         """
+        if mission.level_from is not None:
+            return None  # what it keeps is no altitude of its own
         begun = self._climbs(mission)
         if not begun:
             return None
@@ -222,7 +224,8 @@ class Context:
     def _climb_tick(self, climb: ClimbArguments, mission: MissionArguments) -> int | None:
         """Return when a climb begins, None where it does not while this mission is flown.
 
-        What is asked for during the ascent is done with the first mission.
+        What is asked for during the ascent is done with the first mission. Who keeps the altitude
+        of a mission before keeps what has been asked for since that.
         """
         due = self.events.due_tick(climb.event)
         tick = None if due is None else self.events.action_tick(climb.event, due)
@@ -230,9 +233,14 @@ class Context:
             return None
         phase = self.view.commands(self.view.body(mission.uav))[:, UavCommandColumn.PHASE]
         flown = UavPhase.MISSION + mission.index
-        first = first_tick(phase >= UavPhase.MISSION)
-        ascends = phase[tick] == UavPhase.ASCENT and first is not None and phase[first] == flown
-        return tick if ascends or phase[tick] == flown else None
+        since = flown if mission.level_from is None else UavPhase.MISSION + mission.level_from
+        before = {UavPhase.ASCENT: since, UavPhase.HOLDING: since + 1}
+        if phase[tick] not in before:
+            return tick if since <= phase[tick] <= flown else None
+        # It goes into the mission that is flown next.
+        then = first_tick(phase != phase[tick], tick)
+        counts = then is not None and before[phase[tick]] <= phase[then] <= flown
+        return tick if counts else None
 
     def sight(self, observer: str, target: str) -> SightSeries:
         """Return the sight of a target from a UAV."""

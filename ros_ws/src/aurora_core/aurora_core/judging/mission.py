@@ -8,12 +8,22 @@ from collections.abc import Iterator
 
 from aurora_core.errors import VerificationError
 from aurora_core.judging.build import Inputs
-from aurora_core.knowledge.limits import climb_share_mps, descent_share_mps, hover_capture_m
-from aurora_core.outcomes.condition import ClimbArguments, MissionArguments
+from aurora_core.knowledge.limits import (
+    climb_share_mps,
+    descent_share_mps,
+    hover_capture_m,
+    rest_mps,
+)
+from aurora_core.outcomes.condition import ClimbArguments, MissionArguments, RestArguments
 from aurora_core.outcomes.schedule import MissionFacts
-from aurora_core.spec.flight_order import climbs_last, cut_by
+from aurora_core.spec.flight_order import (
+    climbs_last,
+    cut_by,
+    keeps_altitude,
+    stays_where_it_is,
+)
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
-from aurora_core.spec.scenario import UavAction, UavMission
+from aurora_core.spec.scenario import ScenarioSpec, UavAction, UavMission
 from aurora_core.spec.vocabulary import MissionMode
 
 
@@ -40,7 +50,7 @@ def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
             standoff, approximate=mission.standoff_m.approximate
         )
     first_altitude = _explicit_or(own[0].altitude_m, first_facts.altitude_m)
-    point = _first_point(mission, facts)
+    point = _first_point(inputs.spec, mission, facts)
     ends = cut_by(inputs.spec, mission)
     track = mission.mode is MissionMode.TRACK
     hover = mission.mode is MissionMode.HOVER
@@ -72,7 +82,26 @@ def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
         waypoint_horizontal_m=tolerances.waypoint_horizontal_m,
         left_by=None if ends is None else ends.id,
         climbs=tuple(_climbs(inputs, mission, altitude)),
+        rest=_rest(inputs) if stays_where_it_is(inputs.spec, mission) else None,
+        level_from=_level_from(inputs.spec, own, mission),
     )
+
+
+def _rest(inputs: Inputs) -> RestArguments:
+    tolerances = inputs.tolerances
+    return RestArguments(
+        speed_mps=rest_mps(inputs.spec.world, inputs.limits, tolerances),
+        braking_mps2=tolerances.route_acceleration_mps2,
+        off_m=tolerances.phase_follow_m,
+    )
+
+
+def _level_from(spec: ScenarioSpec, own: list[UavMission], mission: UavMission) -> int | None:
+    """Return which mission of a UAV has given the altitude that another one keeps."""
+    if not keeps_altitude(spec, mission):
+        return None
+    before = own[: own.index(mission)]
+    return max(k for k, m in enumerate(before) if not keeps_altitude(spec, m))
 
 
 def climb_mps(inputs: Inputs) -> float:
@@ -114,9 +143,13 @@ def _slack(parameter: Parameter, value: float, inputs: Inputs) -> float:
     return inputs.tolerances.altitude_m.of(value, approximate=parameter.approximate)
 
 
-def _first_point(mission: UavMission, facts: MissionFacts) -> tuple[float, float] | None:
+def _first_point(
+    spec: ScenarioSpec, mission: UavMission, facts: MissionFacts
+) -> tuple[float, float] | None:
     if mission.mode is MissionMode.HOVER:
         if facts.hover_point is None:
+            if stays_where_it_is(spec, mission):
+                return None
             raise VerificationError(f'the plan has no hover point for mission {mission.id}')
         return facts.hover_point[0], facts.hover_point[1]
     if mission.mode is MissionMode.NAVIGATE:

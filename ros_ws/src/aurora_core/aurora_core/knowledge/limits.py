@@ -191,12 +191,22 @@ _T = TypeVar('_T', bound=_Table)
 
 def hover_drift_limit_m(world: World, limits: Limits, tolerances: Tolerances) -> float:
     """Return the drift allowed while hovering in a world: more in wind, its own or a named one."""
+    windy = _is_windy(world, limits)
+    return tolerances.hover_drift_wind_m if windy else tolerances.hover_drift_calm_m
+
+
+def rest_mps(world: World, limits: Limits, tolerances: Tolerances) -> float:
+    """Return the speed over ground below which a UAV is at rest, m/s: gusts move one that is."""
+    windy = _is_windy(world, limits)
+    return tolerances.start_speed_mps if windy else tolerances.stop_speed_mps
+
+
+def _is_windy(world: World, limits: Limits) -> bool:
     weather = world.weather.value
     mean_mps = limits.wind_mean_mps[weather]
     if world.wind_mps is not None:
         mean_mps = world.wind_mps.value
-    windy = mean_mps > 0.0 or limits.wind_gust_mps[weather] > 0.0
-    return tolerances.hover_drift_wind_m if windy else tolerances.hover_drift_calm_m
+    return mean_mps > 0.0 or limits.wind_gust_mps[weather] > 0.0
 
 
 def climb_share_mps(limits: Limits) -> float:

@@ -19,6 +19,7 @@ from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.crossing import Crossing
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.mission.setpoint import FlightSettings, PursuitReference, RouteReference
+from aurora_core.mission.staying import Staying
 from aurora_core.mission.turning_offset import TurningOffset
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.layout import UavColumn, UavMode, UavPhase
@@ -73,6 +74,7 @@ class MissionMachine:
         stays_up: Something has to happen before it may land: its last mission goes on until then.
         done: It has landed, or held its place long enough where it is not to land.
         way_there: To its mission.
+        staying: Its mission is to stay where it is.
     """
 
     def __init__(self, plan: UavPlan, settings: FlightSettings, dt_s: float) -> None:
@@ -89,19 +91,17 @@ class MissionMachine:
         self._route: RouteReference | None = None
         self._flown: MissionPlan | None = None
         self._turning: TurningOffset | None = None
+        self.staying: Staying | None = None
         self._landing_spot: tuple[float, float] | None = None
         self._return_altitude_m = 0.0
-        self._descending = False
-        self._waits = False
-        self._airborne = False
+        self._descending = self._waits = self._airborne = False
         self._climb: tuple[float, float, float] | None = None
         self._index = self._laps = 0
         self._way: tuple[tuple[float, float, float], ...] = ()
         self._level_m: float | None = None
         self._hold: tuple[float, float, float] = (plan.home_x_m, plan.home_y_m, 0.0)
         self._held_ticks = 0
-        self.stays_up = False
-        self.done = False
+        self.stays_up = self.done = False
         self.way_there = Crossing(None)
 
     @property
@@ -208,14 +208,15 @@ class MissionMachine:
     def climb_to(self, altitude_m: float) -> None:
         """Go on at another altitude; after the missions climb before the way to a landing spot.
 
-        The next mission has its own altitude again.
+        The next mission has its own altitude again, unless it keeps the one before.
         """
         if self.phase == _LANDING and not self._descending:
             self._climb = (self._pursuit.x, self._pursuit.y, altitude_m)
             self._landing_spot = None
-        elif self.phase == _HOLDING:
+            return
+        if self.phase == _HOLDING:
             self._hold = (*self._hold[:2], altitude_m)
-        elif _IDLE < self.phase < _LANDING:
+        if _IDLE < self.phase < _LANDING:
             self._level_m = altitude_m
 
     def stop_point(self, state: FloatArray) -> tuple[float, float]:
@@ -292,14 +293,16 @@ class MissionMachine:
 
     def _begin(self, phase: int) -> None:
         if phase == _HOLDING:
-            self._hold = self._rest_point()
+            self._hold = self._pursuit.rest_point(self._settings)
             self._held_ticks = 0
         elif phase != _LANDING:
-            self.capture_tick = self._turning = None
-            if self.phase != _ASCENT:  # a climb that is asked for during the ascent still counts
-                self._level_m = None
             self._index, self._laps = phase - _MISSION, 0
-            self.way_there = Crossing(self.plan.missions[self._index].over_m)
+            mission = self.plan.missions[self._index]
+            self.capture_tick = self._turning = None
+            self.staying = None if mission.rest_mps is None else Staying(mission.rest_mps)
+            if not mission.keeps_level and self.phase != _ASCENT:
+                self._level_m = None  # what is asked for during the ascent still counts
+            self.way_there = Crossing(mission.over_m)
         self.phase = phase
         self._route = None
 
@@ -308,12 +311,6 @@ class MissionMachine:
         if index < len(self.plan.missions):
             return _HOLDING if self.plan.missions[index].waits else _MISSION + index
         return _LANDING if self.plan.lands else _HOLDING
-
-    def _rest_point(self) -> tuple[float, float, float]:
-        """Return where the reference comes to rest, braking gently from its present velocity."""
-        r = self._pursuit
-        braking_s = norm2(r.vx, r.vy) / self._settings.acceleration_mps2
-        return r.x + braking_s * r.vx, r.y + braking_s * r.vy, r.z
 
     def _stay(self) -> None:
         self._pursuit.step(self._hold, (0.0, 0.0), self._settings, self._dt)
@@ -343,7 +340,7 @@ class MissionMachine:
         if self._phase_over(mission, tick):
             return True
         if self.capture_tick is None:
-            rest = self._rest_point()[:2]
+            rest = self._pursuit.rest_point(self._settings)[:2]
             goal, velocity = self.way_there.goal(self._pursuit, rest, (goal, velocity))
         self._pursuit.step(goal, velocity, self._settings, self._dt)
         return False
@@ -355,6 +352,9 @@ class MissionMachine:
         z_m = self._altitude_m(mission)
         if mission.hover_point is not None:
             x_m, y_m, _ = mission.hover_point
+            return (x_m, y_m, z_m), (0.0, 0.0)
+        if self.staying is not None:
+            x_m, y_m = self.staying.goal(self._pursuit.rest_point(self._settings)[:2])
             return (x_m, y_m, z_m), (0.0, 0.0)
         if target is None:  # The target is gone: hold where the reference is.
             return (self._pursuit.x, self._pursuit.y, z_m), (0.0, 0.0)
@@ -382,8 +382,11 @@ class MissionMachine:
         target: TargetMotion | None,
     ) -> bool:
         x, y, z = state[_X : _Z + 1]
+        stays_m = None if self.staying is None else self.staying.away_m(state)
         if abs(z - self._altitude_m(mission)) > mission.capture_altitude_m:
             return False
+        if stays_m is not None:
+            return stays_m <= mission.capture_horizontal_m
         if mission.mode is _TRACK:
             if target is None:
                 return False
@@ -417,7 +420,7 @@ class MissionMachine:
                 self._way = mission.waypoints
                 self._route = RouteReference(self._way, mission.speed_mps)
             else:
-                rest, still = self._rest_point()[:2], (0.0, 0.0)
+                rest, still = self._pursuit.rest_point(self._settings)[:2], (0.0, 0.0)
                 goal, velocity = self.way_there.goal(self._pursuit, rest, (first, still))
                 self._pursuit.step(goal, velocity, self._settings, self._dt, mission.way_mps)
                 return False
@@ -489,10 +492,8 @@ class MissionMachine:
         if self.phase == _IDLE or self.landed:
             here = state[_X : _Z + 1]
             return np.array([_MODE_IDLE, *here, 0.0, 0.0, 0.0, yaw, 0.0, phase])
-        plan = self.plan
         if self.phase == _ASCENT:
-            z = self._first_altitude_m()
-            home = (plan.home_x_m, plan.home_y_m)
+            z, home = self._first_altitude_m(), (self.plan.home_x_m, self.plan.home_y_m)
             return np.array([_MODE_TAKEOFF, *home, z, 0.0, 0.0, 0.0, yaw, z, phase])
         mode = _MODE_LAND if self._descending else _MODE_OFFBOARD
         r = self._pursuit

@@ -23,7 +23,9 @@ class MissionPlan(Document):
         capture_altitude_m: Tolerance on the altitude at capture.
         ascent_tolerance_m: Tolerance on the altitude that ends the ascent.
         waypoints: Navigate: the points to visit, first repeated at the end when closed.
-        hover_point: Hover: where to hold.
+        hover_point: Hover: where to hold; None: where the mission before has led it.
+        rest_mps: Hover without a point: slower than that it has come to rest.
+        keeps_level: Hover without a point: it stays as high as an event has told it before.
         duration_s: Length of the phase from capture on; a route without it ends at its last point.
         speed_mps: Navigate: speed on the legs.
         way_mps: Navigate: speed at most on the way to the first point; None: the usual one.
@@ -51,6 +53,13 @@ class MissionPlan(Document):
     over_m: FiniteFloat | None = omitted(None)
     waits: bool = omitted(False)
     until_event: bool = omitted(False)
+    rest_mps: FiniteFloat | None = omitted(None)
+    keeps_level: bool = omitted(False)
+
+    @property
+    def is_placed(self) -> bool:
+        """Whether its place is known before the run; not where its UAV stays where it is."""
+        return self.mode is not MissionMode.HOVER or self.hover_point is not None
 
     def offset_from(self, heading: tuple[float, float]) -> tuple[float, float]:
         """Return the vector from a target with a heading (unit vector) to the UAV, ENU metres."""

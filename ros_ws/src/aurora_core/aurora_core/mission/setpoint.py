@@ -82,6 +82,11 @@ class PursuitReference:
         self.y += self.vy * dt_s
         self.step_vertical(goal[2], settings, dt_s)
 
+    def rest_point(self, settings: FlightSettings) -> tuple[float, float, float]:
+        """Return where it comes to rest, braking gently from its velocity (x, y, z in m)."""
+        braking_s = norm2(self.vx, self.vy) / settings.acceleration_mps2
+        return self.x + braking_s * self.vx, self.y + braking_s * self.vy, self.z
+
     def step_vertical(self, goal_z: float, settings: FlightSettings, dt_s: float) -> None:
         """Move one tick towards an altitude (m above ground)."""
         ez = goal_z - self.z

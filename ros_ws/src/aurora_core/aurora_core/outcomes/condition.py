@@ -17,7 +17,7 @@ from aurora_core.document import Document, canonical_json, omitted
 from aurora_core.errors import VerificationError
 from aurora_core.quantities.actions import ActionRules
 from aurora_core.quantities.kernels import TrackRule
-from aurora_core.quantities.phases import CaptureRule
+from aurora_core.quantities.phases import CaptureRule, RestRule
 from aurora_core.spec.parameter import Bound, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.vocabulary import MissionMode
@@ -55,6 +55,19 @@ class ClimbArguments(Document):
     within_s: FiniteFloat
 
 
+class RestArguments(Document):
+    """When a UAV that hovers where it is has come to rest, see `RestRule`."""
+
+    speed_mps: FiniteFloat
+    braking_mps2: FiniteFloat
+    off_m: FiniteFloat
+
+    @property
+    def rule(self) -> RestRule:
+        """The same as it is measured."""
+        return RestRule(speed_mps=self.speed_mps, braking_mps2=self.braking_mps2, off_m=self.off_m)
+
+
 class MissionArguments(Document):
     """A mission as its conditions measure it.
 
@@ -76,6 +89,9 @@ class MissionArguments(Document):
         waypoint_horizontal_m: Tolerance at a waypoint.
         left_by: Event that may end it before its time.
         climbs: Climbs that events may ask for while it is flown.
+        rest: Hover without a point: where it comes to rest it holds.
+        level_from: Its altitude is that of a mission before, the one of this index, as events
+            have changed it since.
     """
 
     mission: str
@@ -100,6 +116,8 @@ class MissionArguments(Document):
     waypoint_horizontal_m: FiniteFloat = 3.0
     left_by: str | None = omitted(None)
     climbs: tuple[ClimbArguments, ...] = omitted(())
+    rest: RestArguments | None = omitted(None)
+    level_from: int | None = omitted(None)
 
     @property
     def track_rule(self) -> TrackRule | None:
@@ -124,6 +142,7 @@ class MissionArguments(Document):
             point_m=self.point_m,
             track=self.track_rule,
             target=self.target,
+            rest=None if self.rest is None else self.rest.rule,
         )
 
 

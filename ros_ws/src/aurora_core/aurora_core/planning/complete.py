@@ -17,6 +17,7 @@ from aurora_core.planning.ids import free_ids
 from aurora_core.planning.kept_distances import at_start_where_changed
 from aurora_core.planning.orders import waiting
 from aurora_core.spec.events import Event, MessageTrigger, actor_of, least_due_s
+from aurora_core.spec.flight_order import keeps_altitude
 from aurora_core.spec.own_events import overtakings
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
@@ -59,7 +60,7 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     spec = meeting(passed(blowing(spec, limits)))
     spec = waiting(hovering(reporting(telling(yielding(approaching(spec))))))
     timed = at_start_where_changed(hurried(spec, limits))
-    return layered(bent(lasting(timed), limits), limits)
+    return as_high(layered(as_high(bent(lasting(timed), limits)), limits))
 
 
 def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
@@ -383,6 +384,23 @@ def _at_least(mission: UavMission, seconds: float) -> UavMission:
     return UavMission.model_validate({**dict(mission), 'duration_s': longer})
 
 
+def as_high(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification in which who stays where it is stays as high, too.
+
+    Args:
+        spec: The request; it is not changed.
+    """
+    found: list[UavMission] = []
+    for mission in spec.missions:
+        if keeps_altitude(spec, mission):
+            before = next(m for m in reversed(found) if m.uav == mission.uav)
+            mission = _at(mission, before.altitude_m.value)
+        found.append(mission)
+    if tuple(found) == spec.missions:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'missions': tuple(found)})
+
+
 def layered(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     """Return the specification with the altitudes that its UAVs will fly at.
 
@@ -424,5 +442,7 @@ def _free_height(mission: UavMission, others: list[float], step_m: float, limits
 
 
 def _at(mission: UavMission, height_m: float) -> UavMission:
-    altitude = {**mission.altitude_m.model_dump(), 'value': height_m}
+    known = mission.altitude_m
+    domain = {'low': min(known.low, height_m), 'high': max(known.high, height_m)}
+    altitude = {**known.model_dump(), 'value': height_m, **domain}
     return UavMission.model_validate({**mission.model_dump(), 'altitude_m': altitude})

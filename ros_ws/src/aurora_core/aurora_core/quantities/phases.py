@@ -10,19 +10,39 @@ are those from capture up to before that tick.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from aurora_core.quantities.kernels import TrackRule, distance_2d, track_errors
-from aurora_core.quantities.motion import on_ground
+from aurora_core.quantities.motion import horizontal_speed, on_ground
 from aurora_core.quantities.ticks import first_tick, last_tick
 from aurora_core.quantities.view import Body, RunView
 from aurora_core.trace.layout import UavColumn, UavCommandColumn, UavPhase
 
 BoolArray = npt.NDArray[np.bool_]
 FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RestRule:
+    """Where a UAV holds that hovers where it is: where it comes to rest.
+
+    That is the point of the first sample of the phase at which it is slower over ground than
+    `speed_mps`. It has to be within the way that braking takes of where the phase began: v^2 /
+    (2 `braking_mps2`) for a speed of v at its first sample, and `off_m` more. Who leaves that
+    circle before does not stay: where it was when the phase began is the point then.
+
+    Attributes:
+        speed_mps: Slower than that it is at rest.
+        braking_mps2: Deceleration at least.
+        off_m: How far a UAV may be from its set-point.
+    """
+
+    speed_mps: float
+    braking_mps2: float
+    off_m: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +56,7 @@ class CaptureRule:
         point_m: Hover: the hover point; navigate: the first waypoint.
         track: Track: the tracking tolerance; then `target` is set.
         target: Body that is tracked.
+        rest: Hover without a point: what is its point.
     """
 
     altitude_m: float
@@ -44,6 +65,7 @@ class CaptureRule:
     point_m: tuple[float, float] | None = None
     track: TrackRule | None = None
     target: str | None = None
+    rest: RestRule | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,6 +98,7 @@ class MissionPhase:
         capture_tick: First sample inside the phase's tolerance.
         end_tick: First command of the next phase; None while the mission lasts.
         stop_tick: `end_tick`, or the end of the trace.
+        point_m: Hover, navigate: the hover point or the first waypoint; where it came to rest.
     """
 
     command_tick: int | None
@@ -83,6 +106,7 @@ class MissionPhase:
     capture_tick: int | None
     end_tick: int | None
     stop_tick: int
+    point_m: tuple[float, float] | None = None
 
 
 def flight_phases(
@@ -149,16 +173,47 @@ def mission_phase(
     end = None if command is None else first_tick(phase != wanted, command)
     stop = view.ticks if end is None else end
     ready = flight.ascent_end_tick if index == 0 else command
-    capture = None
-    if command is not None and ready is not None:
-        capture = first_tick(captured(view, uav, rule, point), ready, stop)
+    capture, begin, held = None, ready, rule.point_m
+    if rule.rest is not None and command is not None:
+        begin, held = _at_rest(view, uav, rule.rest, command, stop)
+        rule = replace(rule, point_m=held)
+    if command is not None and begin is not None:
+        capture = first_tick(captured(view, uav, rule, point), begin, stop)
     return MissionPhase(
         command_tick=command,
         ready_tick=ready,
         capture_tick=capture,
         end_tick=end,
         stop_tick=stop,
+        point_m=held,
     )
+
+
+def _at_rest(
+    view: RunView, uav: Body, rule: RestRule, first: int, stop: int
+) -> tuple[int | None, tuple[float, float] | None]:
+    """Return from when on a UAV stays where it is, and where that is; None as long as it brakes.
+
+    Args:
+        view: The run.
+        uav: Which UAV.
+        rule: When it is at rest.
+        first: First sample of the phase.
+        stop: First sample after it.
+    """
+    xy, speed = (
+        view.reference(uav.body_id)[first:stop, :2],
+        horizontal_speed(view, uav)[first:stop],
+    )
+    if len(xy) == 0:
+        return None, None
+    away_m = distance_2d(xy[:, 0] - xy[0, 0], xy[:, 1] - xy[0, 1])
+    reach_m = speed[0] * speed[0] / (2.0 * rule.braking_mps2) + rule.off_m
+    over = first_tick((speed < rule.speed_mps) | (away_m > reach_m))
+    if over is None:
+        return None, None
+    at = over if away_m[over] <= reach_m else 0
+    return first + at, (float(xy[at, 0]), float(xy[at, 1]))
 
 
 def captured(

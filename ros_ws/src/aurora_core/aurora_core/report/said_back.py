@@ -31,6 +31,7 @@ from aurora_core.spec.events import (
     UavAction,
     VisibilityTrigger,
 )
+from aurora_core.spec.flight_order import stays_where_it_is
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Unit
 from aurora_core.spec.parking import parks
 from aurora_core.spec.prohibitions import (
@@ -238,20 +239,22 @@ def _flights(spec: ScenarioSpec) -> Iterator[ElementReport]:
     for uav, own in groupby(sorted(spec.missions, key=lambda m: m.uav), key=lambda m: m.uav):
         for k, mission in enumerate(own):
             after = 'then ' if k else ''
-            text = f'{uav} {after}{_flies(mission, leaves=mission.target in leave)}'
+            stays = stays_where_it_is(spec, mission)
+            told = _flies(mission, leaves=mission.target in leave, stays=stays)
+            text = f'{uav} {after}{told}'
             assumed = _named_numbers(mission, stated=False)
             if mission.target_inferred:
                 assumed.insert(0, f'target {_place(mission.target)}')
             yield ElementReport(id=mission.id, text=text, assumed=', '.join(assumed))
 
 
-def _flies(mission: UavMission, *, leaves: bool) -> str:
+def _flies(mission: UavMission, *, leaves: bool, stays: bool) -> str:
     target = _place(mission.target)
     if leaves and mission.mode is not MissionMode.TRACK:
         target = f'where {target} is at the start'
     match mission.mode:
         case MissionMode.HOVER:
-            what = f'hovers over {target}'
+            what = 'hovers where it is' if stays else f'hovers over {target}'
         case MissionMode.TRACK:
             what = f'tracks {target}'
         case MissionMode.NAVIGATE:

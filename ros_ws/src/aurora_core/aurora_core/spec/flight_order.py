@@ -103,6 +103,19 @@ def mission_after(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
     return next(iter(own[number + 1 :]), None)
 
 
+def stays_where_it_is(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a hover holds where the mission before has led its UAV: no place is named."""
+    if mission.mode is not MissionMode.HOVER or mission.target is not None:
+        return False
+    return next(m.id for m in spec.missions if m.uav == mission.uav) != mission.id
+
+
+def keeps_altitude(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a UAV that stays where it is stays as high, too: no altitude is stated."""
+    is_open = mission.altitude_m.provenance is not Provenance.EXPLICIT
+    return is_open and stays_where_it_is(spec, mission)
+
+
 def left_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:
     """Return the event that may end a mission, None when only its own end does."""
     after = mission_after(spec, mission)

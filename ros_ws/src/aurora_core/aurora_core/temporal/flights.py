@@ -12,7 +12,7 @@ from itertools import pairwise
 from aurora_core.geometry.kernel import norm2
 from aurora_core.outcomes.feasibility import BoundKind
 from aurora_core.outcomes.schedule import MissionFacts
-from aurora_core.spec.flight_order import begun_by
+from aurora_core.spec.flight_order import begun_by, stays_where_it_is
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import UavMission
@@ -299,7 +299,7 @@ def _ways(basis: Basis, flown: list[UavMission]) -> Iterator[Link]:
                 words=f'{mission.uav} flies {way_m:g} m to {mission.id} at {rate_mps:g} m/s at '
                 'most',
             )
-        if mission.mode is MissionMode.TRACK:
+        if mission.mode is MissionMode.TRACK or stays_where_it_is(basis.spec, mission):
             return  # where the next way begins is not known
         before = over(mission.id)
 

@@ -72,8 +72,9 @@ def _slow_rates(flight: FlightDefaults, limits: Limits) -> dict[str, float]:
 def _facts(
     uav: UavPlan, mission: MissionPlan, index: int, grounded: GroundedScenario
 ) -> MissionFacts:
-    start = (uav.home_x_m, uav.home_y_m) if index == 0 else _end(uav.missions[index - 1], grounded)
-    first = _first(mission, grounded)
+    before = [m for m in uav.missions[:index] if m.is_placed]
+    start = _end(before[-1], grounded) if before else (uav.home_x_m, uav.home_y_m)
+    first = _first(mission, grounded) if mission.is_placed else start
     return MissionFacts(
         mission=mission.id,
         uav=uav.id,

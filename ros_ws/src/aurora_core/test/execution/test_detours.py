@@ -130,3 +130,16 @@ def test_who_is_sent_elsewhere_in_the_middle_of_a_tracking_keeps_clear(
     machine, path = _flown(airspace, tracking, later, car=near, then='m2')
     assert 'm2' in machine.captured_missions
     assert airspace.points_clearance_m(np.array(path)) >= CLEAR_M
+
+
+@pytest.mark.parametrize(('top_m', 'low_m'), [(0.1, 15.0), (14.0, 30.0)])
+def test_who_stays_where_it_is_stays_as_high_over_a_roof(top_m: float, low_m: float) -> None:
+    under = TargetMotion(x_m=10.0, y_m=0.0, vx_mps=0.0, vy_mps=0.0, heading_x=1.0, heading_y=0.0)
+    tracking = MissionPlan(id='m1', mode=MissionMode.TRACK, target='car1', altitude_m=30.0)
+    stays = MissionPlan(
+        id='m2', mode=MissionMode.HOVER, altitude_m=15.0, rest_mps=0.5, waits=True, duration_s=5.0
+    )
+    airspace = _building(top_m, SHUT)
+    machine, path = _flown(airspace, tracking, stays, car=under, then='m2')
+    assert ('m2' in machine.captured_missions) is (low_m == 15.0)
+    assert min(z for _, _, z in path) == pytest.approx(low_m, abs=2.1)

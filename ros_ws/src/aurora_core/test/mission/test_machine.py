@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from functools import partial
 from math import sqrt
 from typing import Any
 
@@ -562,6 +563,47 @@ def test_a_climb_that_an_event_asks_for_lasts_to_the_end_of_the_mission(
     assert follower.state[UavColumn.Z] == pytest.approx(45.0, abs=0.5)
     follower.until(lambda: machine.missions_done)
     assert follower.state[UavColumn.Z] == pytest.approx(30.0, abs=0.5)
+
+
+def test_a_hover_without_a_place_brakes_and_stays_where_that_ends() -> None:
+    stays = _hover('m2', hover_point=None, rest_mps=0.5, waits=True)
+    machine = _machine(_track(until_event=True), stays)
+    machine.start()
+    follower = _Follower(machine)
+    target = partial(_driving_on, mps=8.0)
+    follower.until(lambda: follower.tick == 900, target)
+    machine.change_to('m2')
+    x, y = follower.state[:2]
+    follower.until(lambda: machine.captured, target)
+    # Braking with half of 4 m/s^2 from 8 m/s: 8^2 / (2 * 2) = 16 m.
+    braked = follower.states[machine.capture_tick or 0]
+    assert braked[:3] == pytest.approx([x + 16.0, y, 30.0], abs=1.0)
+    follower.until(lambda: machine.missions_done)
+    assert follower.state[:2] == pytest.approx(braked[:2], abs=1.0)
+
+
+def _driving_on(tick: int, mps: float) -> TargetMotion:
+    return _moving(20.0 + mps * tick * DT_S, 8.0, mps)
+
+
+@pytest.mark.parametrize('told', ['on mission', 'in between'])
+@pytest.mark.parametrize(('keeps', 'height_m'), [(True, 45.0), (False, 30.0)])
+def test_a_hover_without_a_place_is_as_high_as_the_uav_was_told(
+    told: str, keeps: bool, height_m: float
+) -> None:
+    stays = _hover('m2', hover_point=None, rest_mps=0.5, keeps_level=keeps, waits=True)
+    machine = _machine(_hover(), stays)
+    machine.start()
+    follower = _Follower(machine)
+    phase = UavPhase.MISSION if told == 'on mission' else UavPhase.HOLDING
+    follower.until(lambda: machine.phase == phase and machine.captured)
+    machine.climb_to(45.0)
+    follower.until(lambda: machine.phase == UavPhase.HOLDING)
+    for _ in range(200):
+        follower.step()
+    machine.change_to('m2')
+    follower.until(lambda: machine.missions_done)
+    assert follower.state[:3] == pytest.approx([40.0, 0.0, height_m], abs=0.6)
 
 
 def test_a_uav_that_is_not_to_land_holds_its_place() -> None:

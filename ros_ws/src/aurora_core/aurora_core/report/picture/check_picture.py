@@ -183,6 +183,8 @@ class _Flights:
         """Return the way of a UAV: its home, and what is planned of its missions."""
         points: list[Point] = [(uav.home_x_m, uav.home_y_m)]
         for mission in uav.missions:
+            if not mission.is_placed:
+                continue
             legs = [(w[0], w[1]) for w in mission.waypoints]
             points += legs or [self.spot(uav, mission)]
         return points
@@ -289,7 +291,7 @@ def _flown(ax: Axes, uavs: Sequence[UavPlan], flights: _Flights) -> None:
         ax.plot(*zip(*way, strict=True), color=colour, linewidth=1.8, linestyle='--', zorder=7.2)
         ax.plot(*way[0], '^', color=colour, markeredgecolor='white', markersize=8.0, zorder=7.3)
         told: dict[Point, list[str]] = {}
-        for mission in uav.missions:
+        for mission in (m for m in uav.missions if m.is_placed):
             told.setdefault(flights.spot(uav, mission), []).append(f'{mission.altitude_m:.0f}')
         for spot, heights in told.items():
             # A ring, so that who is below it can be seen.

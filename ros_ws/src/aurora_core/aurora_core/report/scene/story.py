@@ -13,6 +13,7 @@ import numpy as np
 from aurora_core.outcomes.condition import Condition
 from aurora_core.report.scene.caption import Failure
 from aurora_core.report.scene.tracks import Track
+from aurora_core.spec.flight_order import stays_where_it_is
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -154,17 +155,23 @@ def _mission_words(
     if mission is None:
         return f'begins {mission_id}'
     altitude_m = altitudes.get(mission_id, mission.altitude_m.value)
-    return f'at {altitude_m:g} m, {mission_words(mission)}'
+    words = mission_words(mission, stays=spec is not None and stays_where_it_is(spec, mission))
+    return f'at {altitude_m:g} m, {words}'
 
 
-def mission_words(mission: UavMission) -> str:
-    """Return what a UAV does in a mission, such as `tracks bus1 from 35 m`."""
+def mission_words(mission: UavMission, *, stays: bool = False) -> str:
+    """Return what a UAV does in a mission, such as `tracks bus1 from 35 m`.
+
+    Args:
+        mission: Which.
+        stays: It hovers where the one before has led its UAV.
+    """
     target = _plain(mission.target) if mission.target else 'the scene'
     if mission.mode is MissionMode.TRACK:
         standoff = mission.standoff_m.value if mission.standoff_m is not None else 0.0
         return f'tracks {target}' + (f' from {standoff:g} m' if standoff else '')
     if mission.mode is MissionMode.HOVER:
-        return f'hovers over {target}'
+        return 'hovers where it is' if stays else f'hovers over {target}'
     pattern = mission.pattern.value if mission.pattern is not None else 'route'
     return f'flies the {pattern} around {target}' if mission.target else f'flies the {pattern}'
 
