@@ -94,7 +94,7 @@ class _LateRunner(EventRunner):
     def _begins(
         self, event: Event, tick: int, dt_s: float, seen: Observation, machines: Machines
     ) -> bool:
-        held = self.__dict__.setdefault('_held', {})
+        held = self.__dict__.setdefault('_since', {})
         if event.id not in held and super()._begins(event, tick, dt_s, seen, machines):
             held[event.id] = tick
         return event.id in held and tick >= held[event.id] + _LATE_TICKS

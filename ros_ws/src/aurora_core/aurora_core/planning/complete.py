@@ -443,6 +443,8 @@ def _free_height(mission: UavMission, others: list[float], step_m: float, limits
 
 def _at(mission: UavMission, height_m: float) -> UavMission:
     known = mission.altitude_m
+    if known.value == height_m:
+        return mission
     domain = {'low': min(known.low, height_m), 'high': max(known.high, height_m)}
     altitude = {**known.model_dump(), 'value': height_m, **domain}
     return UavMission.model_validate({**mission.model_dump(), 'altitude_m': altitude})

@@ -20,7 +20,7 @@ from aurora_core.spec.parameter import Span
 class _Balance(HTMLParser):
     """Finds tags that are closed in the wrong order."""
 
-    void = frozenset({'meta', 'img', 'br', 'link', 'hr'})
+    void = frozenset({'meta', 'img', 'br', 'link', 'hr', 'wbr'})
 
     def __init__(self) -> None:
         super().__init__()
