@@ -107,9 +107,9 @@ def landings(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 
 def _awaits_another(event: Event) -> bool:
     """A UAV that lands when its own missions are over waits for nobody."""
-    if not isinstance(event.trigger, MissionDoneTrigger):
-        return False
-    return not _lands_other(event) or event.action.uav != event.trigger.uav
+    done, action = event.trigger, event.action
+    lands = isinstance(action, UavAction) and action.lands and action.uav
+    return isinstance(done, MissionDoneTrigger) and lands != done.uav
 
 
 def _lands_other(event: Event) -> bool:
