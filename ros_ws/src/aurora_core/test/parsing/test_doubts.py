@@ -219,6 +219,7 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'Two drones hover over City Hall for 25 s, one at 50 m and one at 70 m.',
         'Two drones hover over City Hall at 40 m and 60 m and stay at least 15 m apart.',
         'A drone flies at 40 m for 30 s.',
+        'Two drones 25 m apart hover over City Hall at 50 m, never closer than 25 m.',
         'A drone hovers over City Hall at 40 m for 20 s. After that a second drone tracks a bus.',
         'A drone hovers over City Hall for 20 s and lands.',
         'Two drones hover over City Hall at 40 m and 60 m. They stay 15 m apart.',

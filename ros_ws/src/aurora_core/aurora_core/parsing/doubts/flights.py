@@ -26,6 +26,7 @@ from aurora_core.spec.scenario import (
     Clause,
     DistanceTrigger,
     ScenarioSpec,
+    StatedCondition,
     UavAction,
 )
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode, Pattern
@@ -148,11 +149,18 @@ def formations(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             continue
         if condition.value.value < _REFUSED_M:
             continue  # whatever it means, nobody may fly so: what is not read proves nothing
+        same = {c.id for c in spec.conditions if (c.of, c.value.value) == _pair(condition)}
+        if len(same) > 1:
+            continue  # `5 m apart, not closer than 5 m ever`: it says itself what it means
         for clause in spec.clauses:
             told = condition.id in clause.ids and clause.status is ClauseStatus.ENCODED
             text = clause.text.lower()
             if told and ' apart' in text and not _KEPT.search(text):
                 yield clause.span
+
+
+def _pair(condition: StatedCondition) -> tuple[tuple[str, ...], float]:
+    return condition.of, condition.value.value
 
 
 def heights_as_distances(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
