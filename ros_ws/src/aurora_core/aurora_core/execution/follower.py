@@ -137,7 +137,10 @@ class Follower:
         beside_mps = seen.speed_mps(other)
         ahead_m = seen.centre_ahead_m(one.row, other)
         if beside_mps is None or abs(ahead_m) > self._style.follow_lost_m:
-            return []
+            if one.told_mps is None:
+                return []
+            one.told_mps = None
+            return [self._drive(one.row)]
         return self._at(one, beside_mps + self._style.follow_gain_hz * ahead_m)
 
     def _at(self, one: _Following, wanted_mps: float) -> list[GroundCommand]:

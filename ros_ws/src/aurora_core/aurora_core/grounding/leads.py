@@ -10,7 +10,7 @@ from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import watched_speed_mps
 from aurora_core.grounding.releases import Release, convoy_release, own_release
 from aurora_core.knowledge.agent_types import AgentTypeRecord
-from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.limits import LEVELS_OFF_S, Limits
 from aurora_core.knowledge.settings import Settings
 from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.events import AgentAction, TimeTrigger
@@ -18,9 +18,6 @@ from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission
 from aurora_core.spec.vocabulary import AgentType, MissionMode
-
-# A UAV is at its altitude so much later than its climb at the full rate takes (s).
-_LEVELS_OFF_S = 1.0
 
 
 def leads_m(
@@ -69,7 +66,7 @@ def _lead_m(
     if target is None or not _sets_off_at_once(spec, split, target):
         return 0.0
     record = types[target.type.value]
-    up_s = mission.altitude_m.value / settings.flight.climb_mps + _LEVELS_OFF_S
+    up_s = mission.altitude_m.value / settings.flight.climb_mps + LEVELS_OFF_S
     stops_s = min(_slowed_at_s(spec, target), default=up_s)
     driven_s = min(up_s, stops_s)
     gaining_s = min(driven_s, speed_mps / record.accel_mps2)

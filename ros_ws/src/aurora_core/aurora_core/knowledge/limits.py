@@ -29,9 +29,10 @@ Range = tuple[NotNegative, NotNegative]
 
 # Share of the greatest climb rate that a climb has on average, with its beginning and its end.
 _CLIMB_SHARE = 0.6
-# Ascents to 30, 40 and 50 m were flown at this share of it, and took so much longer at their two
-# ends (s).
-_ASCENT_SHARE, _RAMPS_S = 0.8, 1.0
+# Ascents to 30, 40 and 50 m were flown at this share of it.
+_ASCENT_SHARE = 0.8
+# A UAV is at its altitude so much later than its climb at a steady rate takes (s).
+LEVELS_OFF_S = 1.0
 # From its capture a UAV comes to the first point of its route in so long (s).
 _TO_ROUTE_S = 4.0
 
@@ -216,7 +217,7 @@ def climb_share_mps(limits: Limits) -> float:
 
 def ascent_s(height_m: float, limits: Limits) -> float:
     """Return how long an ascent takes where nothing holds it up, about (s)."""
-    return _RAMPS_S + height_m / (_ASCENT_SHARE * limits.uav_climb_max_mps)
+    return LEVELS_OFF_S + height_m / (_ASCENT_SHARE * limits.uav_climb_max_mps)
 
 
 def descent_share_mps(limits: Limits) -> float:

@@ -46,6 +46,7 @@ from aurora_core.spec.scenario import (
     GroundAgent,
     Link,
     Order,
+    Placement,
     ScenarioSpec,
     Uav,
     UavMission,
@@ -87,6 +88,7 @@ class Stage:
     make: Callable[..., Parameter]
     agents: tuple[str, ...] = ('van1', 'ego')
     behaviors: dict[str, tuple[Behavior, ...]] = field(default_factory=dict)
+    placements: dict[str, tuple[Placement, ...]] = field(default_factory=dict)
     absent: tuple[str, ...] = ()
     releases: dict[str, tuple[ReleaseOn, str]] = field(default_factory=dict)
     parted: dict[str, tuple[str, float]] = field(default_factory=dict)
@@ -274,7 +276,12 @@ class Stage:
         return ScenarioSpec(
             prompt='x',
             agents=tuple(
-                GroundAgent(id=a, type=AgentType.CAR, behaviors=self.behaviors.get(a, ()))
+                GroundAgent(
+                    id=a,
+                    type=AgentType.CAR,
+                    behaviors=self.behaviors.get(a, ()),
+                    placements=self.placements.get(a, ()),
+                )
                 for a in (*self.agents, *self.absent)
             ),
             uavs=tuple(Uav(id=u) for u in self.tracks),

@@ -13,8 +13,8 @@ import pytest
 from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import AgentAction, Behavior, Event, TimeTrigger
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.scenario import AgentAction, Behavior, Event, Placement, TimeTrigger
+from aurora_core.spec.vocabulary import BehaviorKind, Relation
 from aurora_core.trace.layout import GroundCommandKind
 
 Build = Callable[..., Any]
@@ -96,3 +96,36 @@ def test_far_away_it_is_left_to_itself(stage: Build) -> None:
     scene.step()
     scene.put('van1', 300.0, 3.3, 8.0).step()
     assert len(_of_ego(scene, FREE)) == 2
+
+
+def _abreast(stage: Build, relation: Relation, **fields: Any) -> Any:
+    beside = Placement(relation=relation, of='van1', kept_in_motion=True)
+    return stage(tracks={}, placements={'ego': (beside,)}, lanes=STREET, **fields)
+
+
+@pytest.mark.parametrize('relation', [Relation.BESIDE, Relation.LEFT, Relation.RIGHT])
+@pytest.mark.parametrize('behind_m', [-10.0, 0.0, 10.0])
+def test_beside_one_keeps_level(relation: Relation, behind_m: float, stage: Build) -> None:
+    """Centre beside centre, whichever side it is."""
+    scene = _abreast(stage, relation).put('van1', 200.0, 3.3, 8.0)
+    scene.put('ego', 200.0 - behind_m, speed=8.0).step()
+    assert _of_ego(scene, SPEED) == [pytest.approx(8.0 + 0.4 * behind_m)]
+
+
+def test_who_has_lost_the_one_beside_it_drives_on_by_itself(stage: Build) -> None:
+    scene = _abreast(stage, Relation.BESIDE).put('van1', 200.0, 3.3, 8.0)
+    scene.put('ego', 190.0, speed=8.0).step()
+    before = len(_of_ego(scene, FREE))
+    scene.put('ego', 60.0, speed=8.0).step(2)
+    assert len(_of_ego(scene, FREE)) == before + 1
+
+
+def test_of_two_beside_one_another_a_told_speed_stays(
+    parameter: Callable[..., Parameter], stage: Build
+) -> None:
+    drives = Behavior(kind=BehaviorKind.DRIVE, speed_mps=parameter(6.0, 'm/s'))
+    scene = _abreast(stage, Relation.LEFT, behaviors={'ego': (drives,)})
+    scene.put('van1', 200.0, 3.3, 6.0).put('ego', 195.0, speed=6.0).step(3)
+    told = [v for _, agent, k, v in scene.commands() if agent == 'van1' and k == SPEED]
+    assert told == [pytest.approx(6.0 - 0.4 * 5.0)]
+    assert all(v == 6.0 for v in _of_ego(scene, SPEED))

@@ -87,14 +87,14 @@ def _turning(asked: float, flown: float, bound: Bound = Bound.EXACTLY) -> Case:
     return case
 
 
-def _short(flown_deg: float) -> Case:
+def _short(flown_deg: float, lasts_s: float = 20.0) -> Case:
     """An orbit of 20 s, planned for 130 deg of its circle; at 18 m/s a lap takes longer.
 
-    There is time for 8 m/s x (20 - 4 - 8 / 1.5) s on 40 m, 122.2 deg.
+    There is time for 8 m/s x (20 - 4 - 8 / 1.5) s on 40 m, 122.2 deg; in 10.2 s for 9.9 deg.
     """
     case = _orbit(RADIUS_M, flown_deg / 360.0)
     (plan,), (facts,) = case.spec.missions, case.facts.missions
-    lasts = number(20.0, Unit.SECOND, explicit=True)
+    lasts = number(lasts_s, Unit.SECOND, explicit=True)
     case.spec = spec(**{**dict(case.spec), 'missions': (dict(plan) | {'duration_s': lasts},)})
     part = facts.model_copy(update={'waypoints': tuple(_corner(k) for k in range(14))})
     case.facts = case.facts.model_copy(update={'missions': (part,)})
@@ -243,6 +243,7 @@ ROWS = (
         what='farther',
     ),
     Row(id='m1.turn', make=lambda: grounded(_orbit(40.0, 1.0)), reason=EMPTY),
+    Row(id='m1.turn', make=lambda: _short(2.0, 10.2), margin=2.0 - 4.97, within=0.1, what='none'),
     Row(id='m1.turn', make=lambda: _short(130.0), margin=130.0 - 107.2, within=0.1, what='part'),
     Row(id='m1.turn', make=lambda: _short(90.0), margin=90.0 - 107.2, within=0.1, what='less'),
     # A stated number of turns: neither fewer nor more, but for its bound.

@@ -91,7 +91,8 @@ def in_part(
         part_deg: How far that is at least (degrees).
         source: Of the condition.
     """
-    least_deg = max(0.0, part_deg - inputs.tolerances.orbit_deg)
+    # Of a part that is smaller than the tolerance half has to be flown: none at all is no orbit.
+    least_deg = max(part_deg / 2.0, part_deg - inputs.tolerances.orbit_deg)
     target = Target(op='>=', threshold=least_deg, unit='deg')
     words = f'at least {number(part_deg)} deg, for which there is time,'
     return _swept(inputs, mission, words, target, source)
