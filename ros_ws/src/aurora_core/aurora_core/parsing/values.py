@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from aurora_core.document import Document
 from aurora_core.parsing.data_files import read_data
-from aurora_core.parsing.measures import ANGLE, COUNT, LENGTH, RATIO, SPEED, TIME, Measure
+from aurora_core.parsing.measures import ANGLE, COUNT, LENGTH, RATE, RATIO, SPEED, TIME, Measure
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 
 _DIMENSIONS = {
@@ -16,7 +16,7 @@ _DIMENSIONS = {
     Unit.SECOND: (TIME,),
     Unit.METRE_PER_SECOND: (SPEED,),
     Unit.DEGREE: (ANGLE, COUNT),
-    Unit.ONE: (RATIO, COUNT),
+    Unit.ONE: (RATIO, COUNT, RATE),
 }
 
 

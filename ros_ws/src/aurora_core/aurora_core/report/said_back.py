@@ -271,10 +271,12 @@ def _flies(mission: UavMission, *, leaves: bool, stays: bool) -> str:
 
 
 def _link(link: Link) -> ElementReport:
-    numbers = ', '.join(_named_numbers(link, stated=True))
+    said = _named_numbers(link, stated=True, said=('rate_hz',))
+    if link.rate_hz is not None:
+        said.insert(0, f'reports at {link.rate_hz.value:g} Hz')
     return ElementReport(
         id=link.id,
-        text=f'messages from {link.sender} to {link.receiver}: {numbers}',
+        text=f'messages from {link.sender} to {link.receiver}: {", ".join(said)}',
         assumed=', '.join(_named_numbers(link, stated=False)),
     )
 

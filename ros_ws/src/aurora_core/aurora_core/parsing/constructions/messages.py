@@ -13,7 +13,7 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.lexicon import shipped_lexicon
-from aurora_core.parsing.measures import COUNT, RATIO, TIME
+from aurora_core.parsing.measures import RATE, RATIO, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import Entity, LinkDraft, Scene
@@ -65,12 +65,15 @@ def message(frame: Frame) -> SendMessage | None:
 
 
 def _rate(frame: Frame, link: LinkDraft) -> None:
-    """Take `reports its position every 2 s`."""
-    every = frame.time('every')
-    if every is not None and every.measure is not None and every.measure.value > 0.0:
-        every.used = True
-        per_second = replace(every.measure, dimension=COUNT, value=1.0 / every.measure.value)
-        link.rate = values.explicit('link_rate', per_second)
+    """Take `reports its position every 2 s`, `at 2 Hz`."""
+    often = frame.time('every') or frame.measure(RATE, 'at', 'with', '')
+    if often is None or often.measure is None or often.measure.value <= 0.0:
+        return
+    often.used = True
+    rate = often.measure
+    if rate.dimension == TIME:
+        rate = replace(rate, dimension=RATE, value=1.0 / rate.value)
+    link.rate = values.explicit('link_rate', rate)
 
 
 def _awaits(frame: Frame, senders: tuple[Entity, ...]) -> tuple[Entity, ...]:
