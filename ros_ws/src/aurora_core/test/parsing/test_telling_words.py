@@ -78,6 +78,7 @@ def _unread(prompt: str) -> list[str]:
         ('A van overtakes a bus before the bus stops.', 'before the bus stops'),
         ('A bus stops and a car stops, in this order.', 'in this order'),
         ('A van stops while a drone hovers over City Hall at 40 m.', 'while'),
+        ('While a drone circles City Hall at 40 m, a truck drives to City Hall.', 'While'),
         ('A van stops before a drone takes off and hovers at 40 m.', 'before'),
         ('After a drone has hovered over City Hall and landed, a van turns left.', 'After'),
         ('A drone tracks a van, and after 20 seconds of tracking the van stops.', 'of tracking'),

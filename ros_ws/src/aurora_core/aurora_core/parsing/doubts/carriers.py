@@ -16,6 +16,7 @@ from aurora_core.spec.parameter import Parameter, Provenance, Unit
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     AgentAction,
+    Behavior,
     Clause,
     DistanceTrigger,
     EventDoneTrigger,
@@ -160,7 +161,7 @@ def _linked(spec: ScenarioSpec, clause: Clause) -> bool:
     if told & set(clause.ids) or _sequence(spec, clause):
         return True
     watched = {m.target for m in spec.missions}
-    acting = {a.id for a in spec.agents if any(b.kind in _ONCE for b in a.behaviors)}
+    acting = {a.id for a in spec.agents if any(map(_happens_once, a.behaviors))}
     # Whoever is watched, and those about, set out when that begins.
     tracked = any(m.mode is MissionMode.TRACK for m in spec.missions)
     flies = any(m.id in clause.ids for m in spec.missions)
@@ -307,6 +308,13 @@ _ONCE = frozenset(
         BehaviorKind.CROSS,
     }
 )
+
+
+def _happens_once(behavior: Behavior) -> bool:
+    """Whether a behaviour has a moment of its own; one is at a place once, too."""
+    goes = behavior.kind is BehaviorKind.DRIVE and behavior.target is not None
+    return behavior.kind in _ONCE or goes
+
 
 # Actions of agents that are never to come before their triggers (semantics: "not before").
 _NOT_BEFORE = frozenset({'start', 'cross', 'change_lane'})

@@ -59,6 +59,7 @@ from aurora_core.parsing.doubts.telling_words import comparisons, untold
 from aurora_core.parsing.doubts.times import (
     at_one_moment,
     bare_sequels,
+    begun_already,
     bounds_meanwhile,
     distances_of_moments,
     landings,
@@ -107,6 +108,7 @@ _CHECKS: tuple[_Check, ...] = (
     untied_effects,
     let_pass,
     landings,
+    begun_already,
     bare_sequels,
     started_again,
     distances_of_moments,

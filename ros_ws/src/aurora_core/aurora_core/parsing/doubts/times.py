@@ -22,6 +22,7 @@ from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.scenario import (
     AgentAction,
     Clause,
+    DistanceTrigger,
     Event,
     MissionDoneTrigger,
     ScenarioSpec,
@@ -208,6 +209,30 @@ def _tied(spec: ScenarioSpec, clause: Clause) -> bool:
     )
     bound = any(c.id in clause.ids for c in spec.conditions)
     return caused or bound or _in_orders(spec, clause)
+
+
+def begun_already(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`20 m ahead; when the gap falls below 30 m`: it is below that from the start."""
+    told = {
+        frozenset((agent.id, place.of)): place.distance_m.value
+        for agent in spec.agents
+        for place in agent.placements
+        if place.distance_m is not None and place.distance_m.provenance is Provenance.EXPLICIT
+    }
+    for event in spec.events:
+        near = event.trigger
+        if not isinstance(near, DistanceTrigger) or near.value_m.span is None:
+            continue
+        start_m = told.get(frozenset((near.a, near.b)))
+        below = near.on == 'distance_below'
+        if start_m is None or (start_m < near.value_m.value) is not below:
+            continue
+        for clause in spec.clauses:
+            before = [a for a in within(atoms, clause.span) if a.end <= near.value_m.span.start]
+            verbs = [a.key for a in before if a.kind in (AtomKind.VERB, AtomKind.HAPPENING)]
+            changes = bool(verbs) and verbs[-1] != 'be' and event.id in clause.ids
+            if changes and clause.status is ClauseStatus.ENCODED:
+                yield clause.span
 
 
 def distances_of_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
