@@ -28,6 +28,9 @@ HAPPENINGS = ('message_received', 'mission_done', 'event_done', 'arrives')
 MOST_INSTANTS = 40
 # What a driver also does for traffic or a signal.
 TRAFFIC_ASKS = ('brake', 'stop', 'slow', 'yield', 'accelerate')
+# "Within 6 s" asks that these are over then, and the second ones where they lead to a speed.
+ENDS = ('stop', 'change_lane', 'land', 'return_home', 'ascend')
+ENDS_WITH_A_SPEED = ('slow', 'accelerate')
 OWN_FLIGHT = ('ascend', 'change_mission', 'land')
 STATES = (
     'distance_below',
@@ -164,6 +167,8 @@ def _answered(
     if requirement.get('once') is False:
         judged = all_of([a.judged for a in tried])
         return Happened(judged, tried[0].start_s, tried[-1].done_s)
+    tried = [_in_time(requirement, action, i, a) for i, a in zip(usable, tried, strict=True)]
+    good = [k for k in good if tried[k].judged.outcome is Outcome.HOLDS]
     if not good:
         doubtful = [a for a in tried if a.judged.outcome is Outcome.CANNOT_TELL]
         best = (doubtful or tried)[0]
@@ -180,6 +185,26 @@ def _answered(
         return _became(holds(why), best)
     first = f'not at the first time ({usable[0].late_s:.2f} s: {tried[0].judged.why})'
     return _became(cannot_tell(f'{why}, {first}'), best)
+
+
+def _in_time(
+    requirement: Requirement, action: Mapping[str, Any], at: Instant, acted: Acted
+) -> Acted:
+    """Hold what was done against a stated deadline: its end, or its beginning where it has none."""
+    within = requirement.get('within_s')
+    if within is None or acted.judged.outcome is not Outcome.HOLDS:
+        return acted
+    ends = action.get('do') in ENDS or (
+        action.get('do') in ENDS_WITH_A_SPEED and action.get('value_mps') is not None
+    )
+    moment = acted.done_s if ends else acted.start_s
+    if moment is None:
+        return replace(acted, judged=cannot_tell(f'{acted.judged.why}; when it was done is open'))
+    most = float(within) + limits.tolerance(limits.DURATION, float(within))
+    why = f'{acted.judged.why}; {"done" if ends else "begun"} at {moment:.2f} s'
+    first = moment if not ends or acted.done_from_s is None else acted.done_from_s
+    late = graded(moment - at.early_s <= most, first - at.late_s <= most, why)
+    return replace(acted, judged=late)
 
 
 def _is_timed(trigger: Mapping[str, Any]) -> bool:

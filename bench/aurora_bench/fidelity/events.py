@@ -39,6 +39,8 @@ def event_names(r: EventRequirement) -> list[str]:
         names += [f'trigger.{name}' for name in stated_fields(r.trigger)]
     if r.action is not None:
         names += [f'action.{name}' for name in stated_fields(r.action)]
+    if r.within_s is not None:
+        names.append('within_s')
     return names
 
 
@@ -49,6 +51,8 @@ def event_fields(r: EventRequirement, event: Event, subject: Subject, rule: Numb
         fields |= trigger_fields(r.trigger, event.trigger, subject, rule, event.delay_s)
     if r.action is not None and event.action is not None and event.action.do == r.action.do:
         fields |= action_fields(r.action, event.action, subject, rule)
+    if r.within_s is not None and event.deadline_s is not None:
+        fields['within_s'] = rule.counts('within_s', r.within_s, event.delay_s)
     return fields
 
 

@@ -272,7 +272,7 @@ _READ: dict[str, frozenset[str]] = {
         {'sender', 'receiver', 'loss', 'latency_s', 'range_m', 'retransmissions', 'rate_hz'}
         | {'outage_s'}
     ),
-    'event': frozenset({'ref', 'trigger', 'action'}),
+    'event': frozenset({'ref', 'trigger', 'action', 'within_s'}),
     'count': frozenset({'type', 'of', 'value', 'scope'}),
     'order': frozenset({'first', 'then', 'within_s'}),
     'condition': frozenset({'quantity', 'of', 'op', 'value', 'hold_s', 'by_s', 'fraction'}),

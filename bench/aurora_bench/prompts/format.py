@@ -279,13 +279,18 @@ def fields_of_action(do: str) -> frozenset[str]:
 
 
 class EventRequirement(_Requirement):
-    """A trigger and what follows, `once` or every time; one of the two may be missing."""
+    """A trigger and what follows, `once` or every time; one of the two may be missing.
+
+    Attributes:
+        within_s: So soon after the trigger the action is done, or sets in where it has no end.
+    """
 
     kind: Literal['event']
     ref: Ref
     trigger: Trigger | None = None
     action: Action | None = None
     once: StrictBool | None = None
+    within_s: FiniteFloat | None = None
 
 
 class OrderRequirement(_Requirement):

@@ -241,6 +241,8 @@ def event(r: EventRequirement, names: Names, numbers: Numbers) -> Doc:
         found['trigger'] = _trigger(r.trigger, names, numbers)
     if r.action is not None:
         found['action'] = _action(r.action, found['id'], names, numbers)
+    if r.within_s is not None:
+        found['delay_s'] = numbers.stated('within_s', r.within_s) | {'bound': 'at_most'}
     return found
 
 

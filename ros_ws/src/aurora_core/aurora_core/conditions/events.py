@@ -31,9 +31,14 @@ from aurora_core.judging.quantities import (
     yielding,
 )
 from aurora_core.outcomes.condition import Condition
-from aurora_core.spec.events import actor_of, reports_own_altitude, sets_off
+from aurora_core.spec.events import (
+    actor_of,
+    comes_to_an_end,
+    reports_own_altitude,
+    sets_off,
+)
 from aurora_core.spec.flight_order import begun_by, climbs_last
-from aurora_core.spec.parameter import Bound, Provenance
+from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import (
     AgentAction,
     Event,
@@ -105,14 +110,17 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
     if event.delay_s is not None:
         delay_s, provenance = event.waits_s, event.delay_s.provenance
     latest_s = delay_s + inputs.tolerances.event_delay_s
-    if event.delay_s is not None and event.delay_s.bound is Bound.AT_MOST:
-        latest_s = event.delay_s.value
+    deadline_s = event.deadline_s
+    if deadline_s is not None:
+        latest_s = deadline_s
     source = Source(ids=source.ids, spans=source.spans, provenance=provenance)
     climbs = isinstance(event.action, UavAction) and event.action.do == 'ascend'
     drives = isinstance(event.action, AgentAction) and not _binds_before(inputs, event)
     # What is left of a climb before says nothing in the first moments of a wait.
     waits = drives or (climbs and first_s >= inputs.tolerances.phase_change_s)
     yield event_delay.within(inputs, event, latest_s, first_s if waits else 0.0, source)
+    if deadline_s is not None and comes_to_an_end(event.action):
+        yield completion_delay.by_deadline(inputs, event, deadline_s, source)
     if not (drives or climbs):
         # Drivers slow down and speed up for many reasons, and a UAV has climbed at its take-off:
         # what was before says nothing. What they do before a stated delay is over neither, and

@@ -17,7 +17,7 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import FLOWN
 from aurora_core.parsing.pieces import Link
 from aurora_core.parsing.scene import Entity, EventDraft
-from aurora_core.parsing.sequence import later, onset_within
+from aurora_core.parsing.sequence import answered_within, later
 from aurora_core.parsing.story import Story
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -71,7 +71,7 @@ def effect_of_held(story: Story, frame: Frame) -> None:
     messages.link_values(frame)
     demands(frame)
     if event is not None and event.delay is None:
-        event.delay = onset_within(frame, action)
+        event.delay = answered_within(frame, action)
 
 
 def _is_flight_command(frame: Frame) -> bool:

@@ -25,6 +25,7 @@ from aurora_core.parsing.pronouns import anything, mobile
 from aurora_core.parsing.reactions import REACTIONS, reaction
 from aurora_core.parsing.scene import EventDraft, Scene
 from aurora_core.parsing.told_pieces import is_phase, without_link
+from aurora_core.spec.events import comes_to_an_end
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -245,10 +246,10 @@ def soon(frame: Frame, before: int) -> None:
         made[-1].delay = _deadline(frame)
 
 
-def onset_within(frame: Frame, action: EventAction | None) -> Parameter | None:
-    """Take the time within which a driver answers; what takes longer would have to end in it."""
+def answered_within(frame: Frame, action: EventAction | None) -> Parameter | None:
+    """Take the time within which somebody has begun, or done, what he is told."""
     at_once = isinstance(action, AgentAction) and action.do in ('brake', 'start')
-    return _deadline(frame) if at_once else None
+    return _deadline(frame) if at_once or comes_to_an_end(action) else None
 
 
 def _deadline(frame: Frame) -> Parameter | None:

@@ -19,7 +19,7 @@ from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.scene import ClauseDraft, EventDraft, UntilDraft
-from aurora_core.parsing.sequence import onset_within
+from aurora_core.parsing.sequence import answered_within
 from aurora_core.parsing.story import Story
 from aurora_core.spec.scenario import AgentAction, EventAction, SendMessage, UavAction
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
@@ -43,7 +43,7 @@ def effect_then_cause(story: Story, piece: Piece, because: Piece) -> None:
         main_clause(frame)
     messages.link_values(frame)
     demands(frame)
-    limit = onset_within(frame, action)
+    limit = answered_within(frame, action)
     story.close(frame)
     second = story.open(because)
     if isinstance(action, SendMessage):

@@ -163,7 +163,8 @@ EventAction = Annotated[SendMessage | AgentAction | UavAction, Field(discriminat
 class Event(Element):
     """When `trigger` then `action`, within 1 s plus `delay_s`.
 
-    A delay that is only an upper bound (`within 6 s`) is a deadline: nothing waits for it.
+    A delay that is only an upper bound (`within 6 s`) is a deadline: nothing waits for it, and
+    what `comes_to_an_end` has to be done by then, the rest to begin.
     Without an action it is a milestone; without a trigger its cause is left open. Events that
     wait for each other (`event_done`) are a chain.
     """
@@ -175,11 +176,30 @@ class Event(Element):
     span: Span | None = None
 
     @property
+    def deadline_s(self) -> float | None:
+        """Seconds after the trigger by which the action is asked for, None where none is stated."""
+        late = self.delay_s is not None and self.delay_s.bound is Bound.AT_MOST
+        return self.delay_s.value if self.delay_s is not None and late else None
+
+    @property
     def waits_s(self) -> float:
         """Seconds from the trigger to the action."""
         if self.delay_s is None or self.delay_s.bound is Bound.AT_MOST:
             return 0.0
         return self.delay_s.value
+
+
+# Actions that end with a state of their own, and those that do where a number says with which.
+_END = frozenset({'stop', 'change_lane', 'land', 'return_home', 'ascend'})
+_END_WITH_A_NUMBER = frozenset({'slow', 'accelerate'})
+
+
+def comes_to_an_end(action: EventAction | None) -> bool:
+    """Tell whether `within 6 s` says when an action is over, not when it sets in."""
+    if action is None or action.do in _END:
+        return action is not None
+    stated = isinstance(action, AgentAction) and action.value_mps is not None
+    return stated and action.do in _END_WITH_A_NUMBER
 
 
 # After these an agent that is to start again has stood still before.

@@ -26,7 +26,7 @@ def _load(name: str) -> ModuleType:
 
 
 # Test modules of this folder import these by name, each after those that it imports itself.
-for _name in ('trace_builder', 'trace_cases', 'kind_rows'):
+for _name in ('trace_builder', 'trace_cases', 'kind_rows', 'action_cases'):
     _load(_name)
 
 

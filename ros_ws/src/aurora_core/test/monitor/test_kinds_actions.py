@@ -12,39 +12,35 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from action_cases import (
+    AT_S,
+    HOME,
+    TICK,
+    T,
+    ascends,
+    changed,
+    lands,
+    never_due,
+    to_speed,
+    told_car,
+    told_uav,
+)
 from kind_rows import Row, cut, stated
-from trace_builder import Flight, FloatArray, flight, number, world
-from trace_cases import Case, facts_of, ground_case, hover_case, mission, spec
+from trace_builder import flight, number, world
+from trace_cases import Case, ground_case, spec
 
 from aurora_core.knowledge.world import CentreLine
-from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import Behavior
-from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
-
-T = 401
-TICK = np.arange(T)
-AT_S = 15.0
-
-
-def _event(case: Case, action: dict[str, object], at_s: float) -> Case:
-    trigger = {'on': 'time', 'at_s': number(at_s, Unit.SECOND)}
-    event = {'id': 'e1', 'trigger': trigger, 'action': action}
-    case.spec = spec(**{**dict(case.spec), 'events': (event,)})
-    return case
-
-
-def _car(do: str, speed: FloatArray, at_s: float) -> Case:
-    case = ground_case(Behavior(kind=BehaviorKind.DRIVE), speed)
-    return _event(case, {'do': do, 'agent': 'car1'}, at_s)
+from aurora_core.spec.vocabulary import BehaviorKind
 
 
 def _loses(do: str) -> Callable[[int, float], Case]:
     """From 10 m/s with 5 m/s^2."""
 
     def make(tick: int, at_s: float) -> Case:
-        return _car(do, np.maximum(10.0 - 0.25 * np.maximum(TICK - tick + 1, 0), 0.0), at_s)
+        return told_car(do, np.maximum(10.0 - 0.25 * np.maximum(TICK - tick + 1, 0), 0.0), at_s)
 
     return make
 
@@ -53,13 +49,13 @@ def _gains(do: str) -> Callable[[int, float], Case]:
     """From rest with 10 m/s^2: at the tick it has set off."""
 
     def make(tick: int, at_s: float) -> Case:
-        return _car(do, np.minimum(0.51 * np.maximum(TICK - tick + 1, 0), 12.0), at_s)
+        return told_car(do, np.minimum(0.51 * np.maximum(TICK - tick + 1, 0), 12.0), at_s)
 
     return make
 
 
 def _changes_lane(tick: int, at_s: float, back: int = T, lanes: int = 2) -> Case:
-    case = _car('change_lane', np.full(T, 5.0), at_s)
+    case = told_car('change_lane', np.full(T, 5.0), at_s)
     case.run.agents[0].y[tick:back] = 3.3
     case.world = replace(
         case.world,
@@ -89,119 +85,45 @@ def _waits() -> Case:
     case = _changes_lane(365, AT_S)
     case.run.agents[0].speed[280:360] = 0.0
     at_s = number(AT_S, Unit.SECOND, explicit=True)
-    return _later(case, trigger={'on': 'time', 'at_s': at_s})
+    return changed(case, trigger={'on': 'time', 'at_s': at_s})
 
 
 def _crosses(tick: int, at_s: float) -> Case:
     """A person steps onto the carriageway, which begins at y = 0."""
-    case = _car('cross', np.full(T, 1.5), at_s)
+    case = told_car('cross', np.full(T, 1.5), at_s)
     case.run.agents[0].x[:] = 0.0
     case.run.agents[0].y[:] = 0.075 * (TICK - tick) + 0.01
     case.world = world(streets=((-50.0, 0.0, 50.0, 7.0),))
     return case
 
 
-def _flown(action: dict[str, object], one: Flight, at_s: float, *more: str) -> Case:
-    case = hover_case()
-    case.run.flights[:] = [one]
-    missions = [mission(name, MissionMode.HOVER, target='ego') for name in ('m1', *more)]
-    case.spec = spec(**{**dict(case.spec), 'missions': missions})
-    case.facts = facts_of(
-        *(
-            MissionFacts(
-                mission=m.id,
-                uav='uav1',
-                mode=MissionMode.HOVER,
-                altitude_m=30.0,
-                hover_point=(100.0, 0.0, 30.0),
-                duration_s=30.0,
-            )
-            for m in missions
-        ),
-        horizon_s=70.0,
-    )
-    return _event(case, {'uav': 'uav1'} | action, at_s)
-
-
-HOME = (100.0, 20.0)
-
-
-def _lands(tick: int, at_s: float) -> Case:
-    return _flown({'do': 'land'}, flight(1401, HOME, 30.0, landing=tick), at_s)
-
-
 def _returns(tick: int, at_s: float, away_m: float = 0.0) -> Case:
     """It is told to return, and comes down over its start or `away_m` east of it."""
     one = flight(1401, HOME, 30.0, lambda _k: (HOME[0] + away_m, HOME[1], 30.0), landing=tick)
-    return _flown({'do': 'return_home'}, one, at_s)
-
-
-def _ascends(tick: int, at_s: float, asked_m: float = 60.0, to_m: float = 60.0) -> Case:
-    """It climbs to 30 m, and at the tick goes on to 60 m or another altitude."""
-
-    def path(k: int) -> tuple[float, float, float]:
-        return (100.0, 0.0, to_m if k >= tick else 30.0)
-
-    one = flight(1401, HOME, 30.0, path, landing=900)
-    return _flown({'do': 'ascend', 'altitude_m': number(asked_m)}, one, at_s)
+    return told_uav({'do': 'return_home'}, one, at_s)
 
 
 def _next_mission(tick: int, at_s: float) -> Case:
     one = flight(1401, HOME, 30.0, landing=900, later=(tick,))
-    return _flown({'do': 'change_mission', 'mission': 'm2'}, one, at_s, 'm2')
-
-
-def _to(
-    do: str,
-    end_mps: float,
-    value_mps: float | None = None,
-    *,
-    from_mps: float = 10.0,
-    rate: float = 5.0,
-) -> Case:
-    """From one speed to another with `rate` m/s^2 from tick 301 on, which is asked for."""
-    change = rate * 0.05 * np.maximum(TICK - 300, 0)
-    speed = np.maximum(from_mps - change, end_mps)
-    if end_mps > from_mps:
-        speed = np.minimum(from_mps + change, end_mps)
-    case = _car(do, speed, AT_S)
-    (event,) = case.spec.events
-    if value_mps is not None:
-        assert event.action is not None
-        value = number(value_mps, Unit.METRE_PER_SECOND, explicit=True)
-        action = {**dict(event.action), 'value_mps': value}
-        case.spec = spec(**{**dict(case.spec), 'events': ({**dict(event), 'action': action},)})
-    return case
-
-
-def _later(case: Case, **changes: object) -> Case:
-    """Change the event."""
-    (event,) = case.spec.events
-    case.spec = spec(**{**dict(case.spec), 'events': ({**dict(event), **changes},)})
-    return case
-
-
-def _never_due(do: str, end_mps: float, value_mps: float | None = None) -> Case:
-    at_s = number(99.0, Unit.SECOND)
-    return _later(_to(do, end_mps, value_mps), trigger={'on': 'time', 'at_s': at_s})
+    return told_uav({'do': 'change_mission', 'mission': 'm2'}, one, at_s, 'm2')
 
 
 def _untold(case: Case) -> Case:
-    return _later(case, trigger=None)
+    return changed(case, trigger=None)
 
 
 def _stands() -> Case:
-    return _car('stop', np.zeros(T), AT_S)
+    return told_car('stop', np.zeros(T), AT_S)
 
 
 def _after_2_s(case: Case) -> Case:
-    return _later(case, delay_s=number(2.0, Unit.SECOND, explicit=True))
+    return changed(case, delay_s=number(2.0, Unit.SECOND, explicit=True))
 
 
 def _waits_5_s(do: str, tick: int, *, at_junction: bool = False) -> Case:
     """It is to wait 5 s, until 20 s, and slows down with 5 m/s^2 from the tick on."""
     speed = np.maximum(10.0 - 0.25 * np.maximum(np.arange(500) - tick + 1, 0), 0.0)
-    case = _later(_car(do, speed, AT_S), delay_s=number(5.0, Unit.SECOND, explicit=True))
+    case = changed(told_car(do, speed, AT_S), delay_s=number(5.0, Unit.SECOND, explicit=True))
     if at_junction:
         lane = CentreLine(
             lane_id='a_0',
@@ -265,9 +187,9 @@ ACTIONS: dict[str, Callable[[int, float], Case]] = {
     **{do: _gains(do) for do in ('accelerate', 'start')},
     'change_lane': _changes_lane,
     'cross': _crosses,
-    'land': _lands,
+    'land': lands,
     'return_home': _returns,
-    'ascend': _ascends,
+    'ascend': ascends,
     'change_mission': _next_mission,
 }
 
@@ -288,17 +210,17 @@ def _rows(do: str, make: Callable[[int, float], Case]) -> tuple[Row, ...]:
 NEVER = Reason.PREMISE_NEVER
 # Down it goes with 0.1 m per tick, and 0.6 of 3 m/s need 8.3 s for 15 m.
 DESCENDED = (
-    Row(id='e1.within', make=lambda: _ascends(310, AT_S, 15.0, 15.0), margin=0.5, what='descends'),
+    Row(id='e1.within', make=lambda: ascends(310, AT_S, 15.0, 15.0), margin=0.5, what='descends'),
     Row(
         id='e1.within',
-        make=lambda: _ascends(310, AT_S, 15.0),
+        make=lambda: ascends(310, AT_S, 15.0),
         margin=1.0 - 29.95,
         within=0.2,
         what='climbs-instead',
     ),
     Row(
         id='e1.completed',
-        make=lambda: _ascends(310, AT_S, 15.0, 15.0),
+        make=lambda: ascends(310, AT_S, 15.0, 15.0),
         margin=2.0 - (7.0 - 15.0 / 1.8),
         within=0.06,
         what='descends',
@@ -308,27 +230,27 @@ DESCENDED = (
 CLIMBED = (
     Row(
         id='e1.completed',
-        make=lambda: _ascends(310, AT_S),
+        make=lambda: ascends(310, AT_S),
         margin=2.0 - (7.5 - 10.0),
         within=0.06,
         what='climb',
     ),
     Row(
         id='e1.completed',
-        make=lambda: _ascends(310, AT_S, 70.0),
+        make=lambda: ascends(310, AT_S, 70.0),
         margin=2.0 - (1101 * 0.05 - 40.0 / 3.0),
         within=0.06,
         what='climb',
     ),
-    Row(id='e1.completed', make=lambda: _ascends(310, 99.0), reason=NEVER, what='climb'),
+    Row(id='e1.completed', make=lambda: ascends(310, 99.0), reason=NEVER, what='climb'),
 )
 # Told to wait 8 s: who climbs after 1 s, and for 7.5 s, has not waited.
 WAIT_S = number(8.0, Unit.SECOND, explicit=True)
 CLIMBED_LATER = tuple(
     Row(id='e1.within', make=make, margin=9.0 - waited_s, what='climb-after-a-wait')
     for make, waited_s in (
-        (lambda: _later(_ascends(462, AT_S), delay_s=WAIT_S), 8.1),
-        (lambda: _later(_ascends(320, AT_S), delay_s=WAIT_S), 1101 * 0.05),
+        (lambda: changed(ascends(462, AT_S), delay_s=WAIT_S), 8.1),
+        (lambda: changed(ascends(320, AT_S), delay_s=WAIT_S), 1101 * 0.05),
     )
 )
 
@@ -336,7 +258,7 @@ CLIMBED_LATER = tuple(
 def _stops_by(latest_s: float) -> Case:
     """It slows down at 5 s and stands from 17.65 s on; nobody says when it has to begin."""
     speed = np.maximum(10.0 - 0.1 * np.maximum(TICK - 100, 0), 8.0)
-    case = _later(_car('stop', np.where(TICK > 352, 0.0, speed), AT_S), trigger=None)
+    case = changed(told_car('stop', np.where(TICK > 352, 0.0, speed), AT_S), trigger=None)
     return stated(case, 'event_time', ('e1',), '<=', latest_s)
 
 
@@ -363,23 +285,23 @@ def _completed(make: Callable[[], Case], took_s: float, change_mps: float, what:
 
 # With 5 m/s^2 from 15 s on; the run ends at 20 s.
 COMPLETED = (
-    _completed(lambda: _to('stop', 0.0), 2.0, 10.0, 'stop'),
+    _completed(lambda: to_speed('stop', 0.0), 2.0, 10.0, 'stop'),
     # Within 1 m/s of 4 m/s; to half of 10 m/s; 4 m/s more.
-    _completed(lambda: _to('slow', 4.0, 4.0), 1.0, 6.0, 'slow-to'),
-    _completed(lambda: _to('slow', 5.0), 1.0, 5.0, 'slow-half'),
-    _completed(lambda: _to('accelerate', 14.0), 0.8, 4.0, 'gain'),
-    _completed(lambda: _to('brake', 5.0, 5.0), 0.8, 5.0, 'brake-to'),
-    _completed(lambda: _to('slow', 9.5, 8.0), 5.05, 2.0, 'slow-never'),
+    _completed(lambda: to_speed('slow', 4.0, 4.0), 1.0, 6.0, 'slow-to'),
+    _completed(lambda: to_speed('slow', 5.0), 1.0, 5.0, 'slow-half'),
+    _completed(lambda: to_speed('accelerate', 14.0), 0.8, 4.0, 'gain'),
+    _completed(lambda: to_speed('brake', 5.0, 5.0), 0.8, 5.0, 'brake-to'),
+    _completed(lambda: to_speed('slow', 9.5, 8.0), 5.05, 2.0, 'slow-never'),
     # 3 s are needed to change lane.
     Row(id='e1.completed', make=lambda: _changes_lane(310, AT_S), margin=ALLOWED_S - (0.5 - 3.0)),
     Row(id='e1.completed', make=lambda: _changes_lane(T, AT_S), margin=ALLOWED_S - (5.05 - 3.0)),
     Row(id='e1.completed', make=lambda: _changes_lane(310, 99.0), reason=NEVER, what='lane'),
-    _completed(lambda: _to('start', 1.0, 2.5, from_mps=0.0), 5.05, 2.5, 'start-never'),
+    _completed(lambda: to_speed('start', 1.0, 2.5, from_mps=0.0), 5.05, 2.5, 'start-never'),
     # There was no time left for it.
-    Row(id='e1.completed', make=lambda: _to('stop', 1.0), margin=-0.05, what='stop-short'),
-    Row(id='e1.completed', make=lambda: _never_due('stop', 0.0), reason=NEVER),
+    Row(id='e1.completed', make=lambda: to_speed('stop', 1.0), margin=-0.05, what='stop-short'),
+    Row(id='e1.completed', make=lambda: never_due('stop', 0.0), reason=NEVER),
     # Without a trigger it may come at any time, but who stands all along has not stopped.
-    Row(id='e1.completed', make=lambda: _untold(_to('stop', 0.0)), margin=2.0, what='untold'),
+    Row(id='e1.completed', make=lambda: _untold(to_speed('stop', 0.0)), margin=2.0, what='untold'),
     Row(id='e1.completed', make=lambda: _untold(_stands()), reason=NEVER, what='stands'),
     Row(id='e1.happens', make=lambda: _untold(_stands()), reason=NEVER, what='stands'),
     # Who stands when it is told to stop has nothing to do.
@@ -416,7 +338,7 @@ SET_OFF = (
 DELAYED = (
     Row(
         id='e1.within',
-        make=lambda: _after_2_s(_to('brake', 0.0)),
+        make=lambda: _after_2_s(to_speed('brake', 0.0)),
         margin=3.0 - 5.05,
         within=0.06,
         what='delayed-at-once',
@@ -453,7 +375,7 @@ DELAYED = (
     Row(id='e1.waits', make=lambda: _waits_5_s('stop', 100), margin=0.05, what='stood-before'),
     Row(
         id='e1.waits',
-        make=lambda: _later(
+        make=lambda: changed(
             _waits_5_s('stop', 310), trigger={'on': 'time', 'at_s': number(99.0, Unit.SECOND)}
         ),
         reason=NEVER,
@@ -463,10 +385,10 @@ DELAYED = (
 ROWS = (
     *(row for do, make in ACTIONS.items() for row in _rows(do, make)),
     # 2 m or 3 % are allowed: 2.1 m of 70 m.
-    Row(id='e1.altitude', make=lambda: _ascends(310, AT_S), margin=2.0, within=0.05),
+    Row(id='e1.altitude', make=lambda: ascends(310, AT_S), margin=2.0, within=0.05),
     Row(
         id='e1.altitude',
-        make=lambda: _ascends(310, AT_S, 70.0),
+        make=lambda: ascends(310, AT_S, 70.0),
         margin=2.1 - 10.0,
         within=0.05,
     ),

@@ -20,7 +20,12 @@ from aurora_core.judging.build import (
     stated_by,
 )
 from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick, ground_topics
-from aurora_core.judging.happening import agent_action, never_happened
+from aurora_core.judging.happening import (
+    EVENT_TOPICS,
+    agent_action,
+    never_happened,
+    trigger_story,
+)
 from aurora_core.judging.mission import climb_mps, descent_mps
 from aurora_core.judging.quantities.lane_change import the_lane
 from aurora_core.judging.quantity import OfEvent
@@ -157,6 +162,55 @@ class ClimbDelay(OfEvent):
         return context.short(condition)
 
 
+class DoneDelay(OfEvent):
+    """Time from the trigger of an event to the end of what it makes somebody do, seconds.
+
+    Attributes:
+        tolerance_m: On the altitude that a UAV is to reach.
+    """
+
+    name = QuantityName.COMPLETION_DELAY
+    kind: Literal['done_delay'] = 'done_delay'
+    tolerance_m: FiniteFloat = 0.0
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that time; what is not over in it is late."""
+        trigger = context.events.trigger_tick(self.event)
+        if trigger is None:
+            story = f'the trigger of {self.event} never happened'
+            return never_happened(context, condition, story)
+        begin = trigger_story(context, self.event, trigger)
+        done = self._done(context, condition, trigger)
+        if done is not None:
+            took_s = context.time_s(done - trigger)
+            return at_tick(
+                done, took_s, f'{begin}; it was done {took_s:.2f} s later', EVENT_TOPICS
+            )
+        waited_s = context.time_s(context.view.ticks - trigger)
+        if waited_s > condition.threshold or context.complete(condition):
+            late_s = max(waited_s, condition.threshold + context.view.dt_s)
+            story = f'{begin}; {self.event} was not done in the {waited_s:.2f} s after it'
+            # Who has come to a stand in time may have stopped: it shows when that has lasted.
+            rules = self.event_tolerances.actions
+            open_s = condition.threshold + (0.0 if rules is None else rules.stop_hold_s)
+            later = Later.RISES if waited_s > open_s else Later.ANY
+            return at_tick(trigger, late_s, story, EVENT_TOPICS, later=later, provisional=True)
+        return context.short(condition)
+
+    def _done(self, context: Context, condition: Condition, trigger: int) -> int | None:
+        asked = context.events.event(self.event)
+        action = None if asked is None else asked.action
+        if not isinstance(action, UavAction):
+            return context.events.completion_tick(self.event)
+        if action.lands:
+            flight = context.events.rules.flights.get(action.uav)
+            return None if flight is None else flight.landed_tick
+        if action.altitude_m is None:
+            return None
+        z_m = motion.altitude(context.view, context.view.body(action.uav))
+        return first_tick(np.abs(z_m - action.altitude_m.value) <= self.tolerance_m, trigger)
+
+
 def of_climb(
     inputs: Inputs, event: Event, action: UavAction, altitude: Parameter, source: Source
 ) -> Condition:
@@ -225,6 +279,25 @@ def implied(
             goal_mps=0.0 if goal is None else goal.value,
             acceleration_mps2=least,
         ),
+        source=source,
+        every_sample=False,
+    )
+
+
+def by_deadline(inputs: Inputs, event: Event, deadline_s: float, source: Source) -> Condition:
+    """Return that what an event makes somebody do is over by a stated time after its trigger."""
+    altitude = event.action.altitude_m if isinstance(event.action, UavAction) else None
+    tolerance_m = 0.0
+    if altitude is not None:
+        tolerance_m = inputs.tolerances.altitude_m.of(
+            altitude.value, approximate=altitude.approximate
+        )
+    return condition(
+        id=f'{event.id}.done_within',
+        sentence=f'{event.id} is done within {number(deadline_s)} s of its trigger',
+        of=(event.id,),
+        target=Target(op='<=', threshold=deadline_s, unit='s'),
+        arguments=DoneDelay(**inputs.of_event(event.id), tolerance_m=tolerance_m),
         source=source,
         every_sample=False,
     )
