@@ -190,7 +190,7 @@ def _answered(
 def _in_time(
     requirement: Requirement, action: Mapping[str, Any], at: Instant, acted: Acted
 ) -> Acted:
-    """Hold what was done against a stated deadline: its end, or its beginning where it has none."""
+    """Hold an action against a stated deadline: its end, or its beginning if it has none."""
     within = requirement.get('within_s')
     if within is None or acted.judged.outcome is not Outcome.HOLDS:
         return acted

@@ -177,7 +177,7 @@ class Event(Element):
 
     @property
     def deadline_s(self) -> float | None:
-        """Seconds after the trigger by which the action is asked for, None where none is stated."""
+        """Seconds after the trigger by which the action is asked for, None where not stated."""
         late = self.delay_s is not None and self.delay_s.bound is Bound.AT_MOST
         return self.delay_s.value if self.delay_s is not None and late else None
 
