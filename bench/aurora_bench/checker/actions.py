@@ -458,6 +458,9 @@ def _yield(case: Case, agent: str, window: Window, others: tuple[str, ...]) -> A
         return Acted(cannot_tell(why), start)
     done = max(f[1] for f in known)
     why = f'{others} passed first, at {done:.2f} s'
+    apart = min(float(scene.distance(agent, b, True)[scene.tick(done)]) for b in others)
+    if apart > limits.YIELDS_WITHIN_M:
+        return Acted(does_not(f'{why}, {apart:.0f} m away from {agent}'), None, done)
     if onset is None and not window.free:
         return Acted(cannot_tell(f'{why}; {agent} does not slow down'), None, done)
     return Acted(holds(why), float(scene.times[onset]) if onset is not None else None, done)

@@ -87,6 +87,8 @@ TAILGATE_GAP_S = 1.0
 TAILGATE_MPS = 2.0
 TAILGATE_S = 5.0
 FREE_AHEAD_M = 50.0
+# Nobody gives way to who passes farther away than this.
+YIELDS_WITHIN_M = 60.0
 
 # Background vehicles per kilometre of drivable street within 300 m of the anchor.
 TRAFFIC_PER_KM = {'low': 3.0, 'medium': 8.0, 'high': 20.0}

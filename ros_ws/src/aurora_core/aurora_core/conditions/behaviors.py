@@ -295,12 +295,13 @@ _PAIRED: dict[BehaviorKind, tuple[_Row, ...]] = {
     BehaviorKind.YIELD: (
         _Row(
             says=lambda a, b, t: (
-                f'{a} gets at least {number(t.slow_by_mps)} m/s slower, or waits, until {b} has '
-                'passed'
+                f'{a} gets at least {number(t.slow_by_mps)} m/s slower, or waits, within '
+                f'{number(t.yield_m)} m of {b} until that has passed'
             ),
             quantity=lambda inputs: SlowerBeforePassed(
                 **inputs.common,
                 offset_m=_passing_offset_m(inputs.tolerances),
+                near_m=inputs.tolerances.yield_m,
                 moving_mps=inputs.tolerances.moving_speed_mps,
             ),
             op='>=',
@@ -311,7 +312,9 @@ _PAIRED: dict[BehaviorKind, tuple[_Row, ...]] = {
         _Row(
             says=lambda a, b, _: f'{b} passes before {a}',
             quantity=lambda inputs: PassedFirst(
-                **inputs.common, offset_m=_passing_offset_m(inputs.tolerances)
+                **inputs.common,
+                offset_m=_passing_offset_m(inputs.tolerances),
+                near_m=inputs.tolerances.yield_m,
             ),
             op='>',
             least=lambda _: 0.0,

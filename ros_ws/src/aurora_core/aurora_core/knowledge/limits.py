@@ -125,6 +125,9 @@ class Tolerances(_Table):
     bearing_deg: NotNegative
     pattern_centre_m: NotNegative
     orbit_deg: NotNegative  # on the turns of an orbit
+    # a stated speed shows on a free road for so long; nothing was asked before 2026-11-28
+    free_road_s: NotNegative = omitted(0.0)
+    yield_m: NotNegative = omitted(45.0)  # farther apart nobody lets anybody pass
     side_deg: NotNegative = omitted(45.0)  # how far off its direction a side reaches
     return_m: NotNegative = omitted(3.0)  # how far from its start who returns may land
     outage_s: NotNegative = omitted(0.5)  # on both ends of an outage

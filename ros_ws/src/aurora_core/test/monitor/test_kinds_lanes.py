@@ -81,9 +81,11 @@ def _yields(own: FloatArray, other: float, x: float = -30.0, y: float = 3.3) -> 
     return case
 
 
-def _lets_cross(own: FloatArray, walks_from_s: float, over: float = 5.0) -> Case:
-    """car1 begins at 0; a person 40 m on walks at 1 m/s from 5 m right of its way to its left."""
-    case = ground_case(Behavior(kind=B.YIELD, target='ped1'), own, ped1=(40.0, _steady(0.0)))
+def _lets_cross(
+    own: FloatArray, walks_from_s: float, over: float = 5.0, on_m: float = 40.0
+) -> Case:
+    """car1 begins at 0; so far on a person walks at 1 m/s over its way, from right to left."""
+    case = ground_case(Behavior(kind=B.YIELD, target='ped1'), own, ped1=(on_m, _steady(0.0)))
     person = case.spec.agents[1].model_copy(update={'type': AgentType.PEDESTRIAN})
     case.spec = case.spec.model_copy(update={'agents': (case.spec.agents[0], person)})
     case.run.agents[1].type = 'pedestrian'
@@ -161,12 +163,8 @@ ROWS = (
     # It has passed at 0.6 s already, long before the brakes.
     Row(id='car1.yield', make=lambda: _yields(SLOWS, 14.0, -3.0), margin=0.0 - 2.0, what='late'),
     Row(id='car1.yield', make=lambda: _yields(_steady(0.0), 10.0), reason=NEVER),
-    # 399 and 301 steps of 0.05 s, of which 99 at 8 m/s; the other one gets to 170 m.
-    Row(
-        id='car1.yield.passed',
-        make=lambda: _yields(SLOWS, 10.0),
-        margin=170.0 - (99 * 0.4 + 301 * 0.1),
-    ),
+    # 99 steps of 0.05 s at 8 m/s, then 2 m/s; the other one gains 0.4 m a step, up to 45 m.
+    Row(id='car1.yield.passed', make=lambda: _yields(SLOWS, 10.0), margin=45.0, within=0.4),
     Row(id='car1.yield.passed', make=lambda: _yields(_steady(8.0), 8.0), margin=-30.0),
     # Somewhere else, or ahead all the time.
     Row(id='car1.yield.passed', make=lambda: _yields(SLOWS, 10.0, y=60.0), reason=NEVER),
@@ -200,6 +198,20 @@ ROWS = (
         what='turns-round',
     ),
     Row(id='car1.yield', make=lambda: _lets_cross(STOPS, 0.0), margin=8.0 - 2.0, what='on-foot'),
+    Row(id='car1.yield', make=lambda: _lets_cross(WAITS, 0.0), margin=8.0 - 2.0, what='waits'),
+    # Nobody lets anybody pass who is farther away than 45 m.
+    Row(
+        id='car1.yield',
+        make=lambda: _lets_cross(WAITS, 0.0, on_m=60.0),
+        margin=0.0 - 2.0,
+        what='waits-far-away',
+    ),
+    Row(
+        id='car1.yield',
+        make=lambda: _lets_cross(STOPS, 0.0, on_m=90.0),
+        margin=0.0 - 2.0,
+        what='slows-far-away',
+    ),
     Row(
         id='car1.yield',
         make=lambda: _lets_cross(_steady(8.0), 0.0),

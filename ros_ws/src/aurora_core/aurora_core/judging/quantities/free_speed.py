@@ -49,12 +49,14 @@ class _KeptSpeed(Quantity):
     Attributes:
         speed: Stated, m/s.
         moving_mps: Speed that counts as moving.
+        least_s: A share of less time than this, seconds, shows nothing.
     """
 
     name = QuantityName.SPEED
     window: Window = Window.MISSIONS
     speed: PerSample
     moving_mps: FiniteFloat
+    least_s: FiniteFloat = omitted(0.0)
 
     @abstractmethod
     def free(
@@ -83,8 +85,12 @@ class _KeptSpeed(Quantity):
         free, never, growing = self.free(context, condition, values)
         ticks = ticks[ticks < _told_otherwise(context, condition.of)]
         ticks = ticks[free[ticks]]
-        if len(ticks) == 0:
-            return Missing(reason=Reason.EMPTY_PHASE, story=f'{body.body_id} never {never}')
+        shown_s = context.time_s(len(ticks))
+        if len(ticks) == 0 or shown_s < self.least_s:
+            story = f'{body.body_id} never {never}'
+            if len(ticks) > 0:
+                story = f'{body.body_id} {never} for {shown_s:.2f} s only'
+            return Missing(reason=Reason.EMPTY_PHASE, story=story)
         what = f'{body.body_id} kept its speed'
         topics = tuple(f'state[{name}]' for name in condition.of)
         good = self.speed.good(values)
@@ -239,6 +245,7 @@ def implied(
             **inputs.common,
             speed=wanted,
             moving_mps=t.moving_speed_mps,
+            least_s=t.free_road_s,
             settle_m=speed.value * speed.value / (2.0 * t.route_acceleration_mps2),
             free_m=t.free_road_m,
             lane_offset_m=t.lane_offset_m,

@@ -9,13 +9,16 @@ joins it, or overtakes there. A person passes by getting over that way, to its o
 from __future__ import annotations
 
 from abc import abstractmethod
+from math import inf
 from typing import Literal
 
 import numpy as np
 from pydantic import FiniteFloat
 
-from aurora_core.judging.build import Inputs, Source, Target, Underivable, condition
+from aurora_core.document import omitted
+from aurora_core.judging.build import Inputs, Source, Target, Underivable, condition, number
 from aurora_core.judging.evaluation import (
+    BoolArray,
     Context,
     Evaluation,
     FloatArray,
@@ -43,11 +46,18 @@ class _Yielding(Quantity):
 
     Attributes:
         offset_m: How far from the way of the one that yields the other one may pass.
+        near_m: Farther apart than this nobody lets anybody pass.
     """
 
     name = QuantityName.YIELDING
     window: Window = Window.RUN
     offset_m: FiniteFloat
+    near_m: FiniteFloat = omitted(inf)
+
+    def near(self, context: Context, condition: Condition, end: int) -> BoolArray:
+        """Return at which of the first ticks the two are near each other, (end,)."""
+        apart: FloatArray = motion.horizontal_distance(context.view, *condition.of)[:end]
+        return apart <= self.near_m
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return it where there was somebody to yield to."""
@@ -100,8 +110,13 @@ class PassedFirst(_Yielding):
     def of_pass(
         self, context: Context, condition: Condition, ahead: FloatArray, start: int
     ) -> Evaluation:
-        """Return the greatest lead."""
-        farthest = start + int(np.argmax(ahead[start:]))
+        """Return the greatest lead that it has near the other one."""
+        near = self.near(context, condition, len(ahead))
+        if not near[start:].any():
+            a, b = condition.of
+            story = f'{b} never came within {number(self.near_m)} m of {a}'
+            return Missing(reason=Reason.PREMISE_NEVER, story=story)
+        farthest = start + int(np.argmax(np.where(near, ahead, -inf)[start:]))
         most_m = float(ahead[farthest])
         topics = ground_topics(condition)
         return at_tick(farthest, most_m, evidence=topics, later=Later.RISES)
@@ -143,13 +158,14 @@ class SlowerBeforePassed(_Yielding):
         moved = first_tick(speed >= self.moving_mps)
         if moved is None:
             return Missing(reason=Reason.PREMISE_NEVER, story=f'{body.body_id} never moved')
+        near = self.near(context, condition, end)
         if passed is not None and passed <= moved:
             # It waited: what it drives afterwards is what it did not drive before.
-            tick = int(np.argmax(speed))
-            value = float(speed[tick])
+            tick = int(np.argmax(speed)) if near[passed] else passed
+            value = float(speed[tick]) if near[passed] else 0.0
         else:
             until = speed if passed is None else speed[: passed + 1]
-            drop = np.maximum.accumulate(until) - until
+            drop = (np.maximum.accumulate(until) - until) * near[: len(until)]
             tick = int(np.argmax(drop))
             value = float(drop[tick])
         return at_tick(tick, value, evidence=ground_topics(condition), later=Later.RISES)

@@ -44,6 +44,7 @@ _HEIGHTS = ('ascend', 'climb', 'descend', 'sink')
 # Who does nothing in the air, and what a distance is measured from.
 _GROUND = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO})
 _AWAY = ('from', 'away from')
+_DISTANCE_WORDS = ('ahead', 'away', 'behind', 'beside', 'distance', 'from', 'off', 'standoff')
 _KEPT = re.compile(
     r'\b(?:hold|keep|kept|maintain|min|neither|never|no|none|not|remain|separat|stay)'
 )
@@ -240,6 +241,26 @@ def while_it_stops(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
         asked = any(c.id in clause.ids for c in spec.conditions)
         if (asked or verbs[0].key in MOMENTS) and _missions(spec, verbs[-1]):
             yield over(sentence[0], sentence[0]) if asked else over(sentence[0], verbs[0])
+
+
+def standoffs_as_heights(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`tracks the van at 40 m, then climbs to 70 m`: was that 40 m away, or 40 m high?"""
+    for mission in spec.missions:
+        told = mission.standoff_m
+        if mission.mode is not MissionMode.TRACK or told is None or told.span is None:
+            continue
+        heights = [m.altitude_m for m in spec.missions if m.uav == mission.uav]
+        acts = [e.action for e in spec.events if isinstance(e.action, UavAction)]
+        heights += [a.altitude_m for a in acts if a.uav == mission.uav and a.altitude_m]
+        before = spec.prompt[: told.span.start].rstrip().lower()
+        if (
+            any(map(_explicit, heights))
+            and not _explicit(mission.altitude_m)
+            and before.endswith(' at')
+        ):
+            behind = [a for a in atoms if a.start >= told.span.end][:1]
+            if not behind or not behind[0].words.startswith(_DISTANCE_WORDS):
+                yield told.span
 
 
 def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

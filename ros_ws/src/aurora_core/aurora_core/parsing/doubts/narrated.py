@@ -16,14 +16,20 @@ from aurora_core.parsing.doubts.clauses import (
     meet,
     over,
     sentences,
+    within,
 )
+from aurora_core.parsing.morphology import VerbForm
 from aurora_core.spec.parameter import Span
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Clause, DistanceTrigger, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
 
 # Deeds that make sense at one moment: whoever tells several of them tells them in their order.
 _DEEDS = frozenset({'brake', 'cross', 'overtake', 'slow', 'start', 'stop'}) | TOLD
 _CAUSES = frozenset({'after', 'when'})
+# Told of somebody they happen once: `comes within 30 m`, not `must come` or `is within 30 m`.
+_COMES = frozenset({'approach', 'come', 'fall_below'})
+_DISTANCES = frozenset({QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE})
 # `within 25 m of it, it slows`: both words are the same body.
 _SAME_TWICE = re.compile(
     r'\d ?m(?:eters?|etres?)? (?:of|from|to) (?:it|him|her)\b[^.;,]*, (?:it|he|she)\b'
@@ -68,6 +74,20 @@ def untied_causes(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
         ]
         if deeds and any(flown & set(c.ids) for c in clauses):
             yield over(deeds[0][0], deeds[0][0])
+
+
+def told_as_bounds(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`a bus comes within 30 m of it and the car drives off` that became a bound all along."""
+    for condition in spec.conditions:
+        near = condition.op in ('<', '<=') and condition.quantity in _DISTANCES
+        if not near or condition.value.span is None or condition.by_s is not None:
+            continue
+        for clause in spec.clauses:
+            told = [a for a in within(atoms, clause.span) if a.end <= condition.value.span.start]
+            verbs = [a for a in told if a.kind is AtomKind.VERB]
+            comes = bool(verbs) and verbs[-1].key in _COMES and verbs[-1].form is VerbForm.THIRD
+            if condition.id in clause.ids and comes and clause.status is ClauseStatus.ENCODED:
+                yield clause.span
 
 
 def said_twice(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

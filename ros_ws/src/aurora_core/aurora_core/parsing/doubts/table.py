@@ -42,6 +42,7 @@ from aurora_core.parsing.doubts.flights import (
     hovers_over_movers,
     seen_on_another_flight,
     shared_durations,
+    standoffs_as_heights,
     stays_of_others,
     watched_while_hovering,
     while_it_stops,
@@ -53,7 +54,12 @@ from aurora_core.parsing.doubts.messages import (
     places_of_deeds,
     told_by_a_person,
 )
-from aurora_core.parsing.doubts.narrated import in_their_order, said_twice, untied_causes
+from aurora_core.parsing.doubts.narrated import (
+    in_their_order,
+    said_twice,
+    told_as_bounds,
+    untied_causes,
+)
 from aurora_core.parsing.doubts.roles import misanchored, misplaced
 from aurora_core.parsing.doubts.telling_words import comparisons, untold
 from aurora_core.parsing.doubts.times import (
@@ -88,6 +94,7 @@ _CHECKS: tuple[_Check, ...] = (
     watched_while_hovering,
     flights_without_verb,
     folded_climbs,
+    standoffs_as_heights,
     heights_over_fliers,
     heights_from_somebody,
     heights_passed_twice,
@@ -123,6 +130,7 @@ _CHECKS: tuple[_Check, ...] = (
     in_their_order,
     untied_causes,
     said_twice,
+    told_as_bounds,
 )
 
 
