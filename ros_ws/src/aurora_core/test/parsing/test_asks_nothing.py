@@ -24,6 +24,8 @@ def _texts(prompt: str, status: ClauseStatus) -> list[str]:
         ('Acceptance criteria: the drone hovers at 30 m.', 'Acceptance', 'title'),
         ('Check the link budget. A drone hovers at 30 m.', 'Check the link budget', 'for'),
         ('A drone hovers at 30 m. If it makes a difference.', 'If it makes', 'remark'),
+        ('A drone hovers at 30 m and avoids all no-fly zones.', 'avoids', 'every run'),
+        ('A drone hovers at 30 m. No vehicle collides.', 'No vehicle', 'every run'),
     ],
 )
 def test_what_asks_for_nothing_leaves_a_request_complete(
@@ -42,6 +44,7 @@ def test_what_asks_for_nothing_leaves_a_request_complete(
         'A drone hovers at 30 m for 20 s. Tilt the gimbal.',
         'A drone hovers at 30 m for 20 s. Cheers, and tilt the gimbal.',
         'Check the link budget of 3 dB. A drone hovers at 30 m.',
+        'A drone hovers at 30 m and avoids all no-fly zones by 20 m.',
         'A drone hovers at 30 m. If it makes a difference of 2 m.',
     ],
 )
