@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from aurora_bench.checker import limits, uav_actions
+from aurora_bench.checker import braking, limits, uav_actions
 from aurora_bench.checker.actions import GROUND_ACTIONS, Acted, Window, ground_action
 from aurora_bench.checker.answers import (
     Judged,
@@ -262,7 +262,15 @@ def _act(case: Case, requirement: Requirement, action: Mapping[str, Any], window
         if not agents:
             return Acted(does_not(f'there is no {action.get("agent")!r}'))
         others = _others(case, requirement, agents)
-        return _together([ground_action(case, action, agent, window, others) for agent in agents])
+        acted = [ground_action(case, action, agent, window, others) for agent in agents]
+        number = braking.asked(case, requirement, action)
+        if number is not None:
+            acted = [
+                replace(a, judged=all_of([a.judged, braking.braked(case, agent, start, number)]))
+                for agent, a in zip(agents, acted, strict=True)
+                for start in (window.early_s if a.start_s is None else a.start_s,)
+            ]
+        return _together(acted)
     uavs = case.bodies(action.get('uav'))
     if not uavs:
         return Acted(does_not(f'there is no {action.get("uav")!r}'))

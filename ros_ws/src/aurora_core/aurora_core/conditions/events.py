@@ -19,6 +19,7 @@ from aurora_core.judging.mission import missions_of_uav
 from aurora_core.judging.quantities import (
     altitude,
     completion_delay,
+    deceleration,
     delivered,
     delivery_latency,
     event_delay,
@@ -155,6 +156,8 @@ def _of_agent(
     goal = value if goes_to else None
     if goal is not None or action.do in completion_delay.ENDS:
         yield completion_delay.implied(inputs, event, action, goal, source)
+    if action.deceleration_mps2 is not None:
+        yield deceleration.of_event(inputs, event, action, action.deceleration_mps2, source)
     if action.do == 'start' and event.trigger is not None:
         yield speed_before_event.implied(inputs, event, action, source)
     if action.do == 'change_lane':

@@ -198,6 +198,7 @@ def build_stepper(
             ),
             action_rules=action_rules(tolerances),
             driving=settings.run.driving,
+            deceleration=tolerances.deceleration_mps2,
             horizon_ticks=round(schedule.horizon_s / dt_s),
             stated_horizon=schedule.stated_horizon,
             earliest_end_ticks=round(_earliest_end_s(spec, grounded, schedule, limits) / dt_s),

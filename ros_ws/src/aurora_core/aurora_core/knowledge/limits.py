@@ -177,6 +177,9 @@ class Tolerances(_Table):
     moving_speed_mps: NotNegative  # an agent this fast has moved
     onset_mps2: NotNegative  # change of speed with which slowing down or speeding up begins
     action_speed_mps: Tolerance  # on the speed that an action is to end with
+    headway_s: Tolerance = omitted(Tolerance(absolute=0.3, relative=0.15))  # on a stated headway
+    # on a stated deceleration
+    deceleration_mps2: Tolerance = omitted(Tolerance(absolute=0.3, relative=0.1))
     action_done_s: NotNegative  # how much later than physics allows an action may be complete
     slow_share: Share  # share of its speed to which an agent slows down when no speed is stated
     speed_gain_mps: NotNegative  # by how much an agent speeds up when no speed is stated

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from aurora_core.spec.parameter import Bound
 
 LENGTH, TIME, SPEED, RATIO, ANGLE, COUNT = 'length', 'time', 'speed', 'ratio', 'angle', 'count'
+ACCELERATION = 'acceleration'
 UNREADABLE = 'unreadable'
 # Between a number and its unit: `20 consecutive seconds`.
 UNBROKEN = frozenset(
@@ -21,7 +22,7 @@ class Measure:
     """A stated quantity in SI (angles in degrees, ratios 0..1).
 
     Attributes:
-        dimension: length, time, speed, ratio, angle, count (no unit) or unreadable.
+        dimension: length, time, speed, acceleration, ratio, angle, count (no unit) or unreadable.
         value: In SI.
         start: First character of the number (qualifiers such as `about` are outside).
         end: One past the last character of the unit.

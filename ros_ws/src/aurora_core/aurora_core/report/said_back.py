@@ -22,6 +22,7 @@ from aurora_core.spec.events import (
     Event,
     EventAction,
     EventDoneTrigger,
+    HeadwayTrigger,
     MessageTrigger,
     MissionDoneTrigger,
     SendMessage,
@@ -297,6 +298,9 @@ def _trigger(trigger: Trigger) -> str:
         case DistanceTrigger(on=on, a=a, b=b, value_m=value):
             near = 'within' if on == 'distance_below' else 'beyond'
             return f'{a} comes {near} {_number(value)} of {_place(b)}{_centres((a, b))}'
+        case HeadwayTrigger(on=on, a=a, b=b, value_s=value):
+            what = 'headway' if on == 'headway_below' else 'time to collision'
+            return f'the {what} of {a} behind {b} falls below {_number(value)}'
         case TimeTrigger(at_s=at):
             return f'{_number(at)} have passed'
         case AltitudeTrigger(uav=uav, value_m=value):

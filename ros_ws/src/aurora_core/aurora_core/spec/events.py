@@ -23,6 +23,15 @@ class DistanceTrigger(Element):
     value_m: Parameter
 
 
+class HeadwayTrigger(Element):
+    """Headway, or time to collision, of `a` behind `b` in its lane falls below a threshold."""
+
+    on: Literal['headway_below', 'ttc_below']
+    a: Id
+    b: Id
+    value_s: Parameter
+
+
 class TimeTrigger(Element):
     """Scenario time reached."""
 
@@ -95,6 +104,7 @@ class BatteryTrigger(Element):
 
 Trigger = Annotated[
     DistanceTrigger
+    | HeadwayTrigger
     | TimeTrigger
     | AltitudeTrigger
     | VisibilityTrigger
@@ -120,18 +130,31 @@ class SendMessage(Element):
 AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
 
 
+# What takes speed off, and may be told how hard.
+BRAKING = frozenset({'brake', 'stop', 'slow'})
+
+
 class AgentAction(Element):
-    """A ground agent changes what it does; `side` is that of the lane it changes to."""
+    """A ground agent changes what it does.
+
+    Attributes:
+        value_mps: Speed that it ends with.
+        deceleration_mps2: How hard it brakes for that (mean fully developed deceleration).
+        side: Of the lane that it changes to.
+    """
 
     do: AgentDo
     agent: Id
     value_mps: Parameter | None = None
+    deceleration_mps2: Parameter | None = omitted(None)
     side: LaneSide | None = omitted(None)
 
     @model_validator(mode='after')
     def _has_its_fields(self) -> Self:
         if self.side is not None and self.do != 'change_lane':
             raise ValueError(f'a side belongs to change_lane alone, found it with {self.do}')
+        if self.deceleration_mps2 is not None and self.do not in BRAKING:
+            raise ValueError(f'a deceleration belongs to braking, found it with {self.do}')
         return self
 
 
@@ -255,6 +278,8 @@ def actor_of(event: Event) -> str | None:
             return trigger.b if trigger.a == told else trigger.a
         case SpeedTrigger() | ArrivalTrigger():
             return trigger.who
+        case HeadwayTrigger():
+            return trigger.a
         case VisibilityTrigger():
             return trigger.target if trigger.on == 'visible' else None
         case _:

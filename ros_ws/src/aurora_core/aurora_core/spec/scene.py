@@ -101,6 +101,10 @@ class Placement(Element):
         return self.kept_in_motion and steady
 
 
+# Who does this has somebody ahead, and may be told how far in time.
+KEEPS_HEADWAY = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
+
+
 class Behavior(Element):
     """What an agent does.
 
@@ -111,6 +115,7 @@ class Behavior(Element):
         speed_mps: Stated speed.
         closing_from_m: Tailgate or approach: distance to `target` at t = 0 and when the
             closing starts.
+        headway_s: Follow or tailgate: bumper gap to the target divided by one's own speed.
         side: Of the lane that is changed to.
     """
 
@@ -119,6 +124,7 @@ class Behavior(Element):
     target_inferred: bool = omitted(False)
     speed_mps: Parameter | None = None
     closing_from_m: Parameter | None = None
+    headway_s: Parameter | None = omitted(None)
     side: LaneSide | None = omitted(None)
     span: Span | None = None
 
@@ -126,6 +132,8 @@ class Behavior(Element):
     def _side_is_of_a_lane(self) -> Self:
         if self.side is not None and self.kind is not BehaviorKind.CHANGE_LANE:
             raise ValueError(f'a side belongs to change_lane alone, found it with {self.kind}')
+        if self.headway_s is not None and self.kind not in KEEPS_HEADWAY:
+            raise ValueError(f'a headway belongs to following, found it with {self.kind}')
         return self
 
 

@@ -75,6 +75,7 @@ class BehaviorReading(Document):
     target: Reference | None = None
     speed_mps: Number | None = None
     closing_from_m: Number | None = None
+    headway_s: Number | None = None
     side: LaneSide | None = None
     quote: Quote
 
@@ -140,6 +141,8 @@ class TriggerReading(Document):
     on: Literal[
         'distance_below',
         'distance_above',
+        'headway_below',
+        'ttc_below',
         'time',
         'altitude_reached',
         'visible',
@@ -178,6 +181,7 @@ class ActionReading(Document):
     subject: Name
     receiver: Name | None = None
     value: Number | None = None
+    deceleration_mps2: Number | None = None
     mission: Name | None = None
     side: LaneSide | None = None
 
@@ -217,6 +221,9 @@ class ConditionReading(Document):
         'separation',
         'altitude',
         'speed',
+        'deceleration',
+        'time_headway',
+        'time_to_collision',
         'tracked_fraction',
         'visible_fraction',
         'visible_time',

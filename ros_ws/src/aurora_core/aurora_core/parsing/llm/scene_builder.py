@@ -37,6 +37,7 @@ from aurora_core.spec.prohibitions import (
     Prohibition,
 )
 from aurora_core.spec.scenario import Behavior, Placement, SceneCount
+from aurora_core.spec.scene import KEEPS_HEADWAY
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
@@ -233,11 +234,16 @@ def _add_behavior(entity: Entity, said: BehaviorReading, where: str, parts: Part
     closing = parts.number('closing_from', said.closing_from_m, f'{where}.closing_from_m')
     if said.side is not None and said.kind is not BehaviorKind.CHANGE_LANE:
         parts.complaints.append(f'{where}.side: only who changes lane has one')
+    headway = parts.number('headway', said.headway_s, f'{where}.headway_s')
+    if headway is not None and said.kind not in KEEPS_HEADWAY:
+        parts.complaints.append(f'{where}.headway_s: only who follows or tailgates has one')
+        headway = None
     made = Behavior(
         kind=said.kind,
         target=parts.ref_or_none(said.target),
         speed_mps=parts.number('ground_speed', said.speed_mps, f'{where}.speed_mps'),
         closing_from_m=closing,
+        headway_s=headway,
         side=said.side if said.kind is BehaviorKind.CHANGE_LANE else None,
         span=parts.span(said.quote, where),
     )
