@@ -50,6 +50,7 @@ def condition(case: Case, requirement: Requirement) -> Judged:
         'speed': _series,
         'clearance': _series,
         'time_headway': _series,
+        'vertical_speed': _series,
         'time_to_collision': _series,
         'deceleration': _hardest_braking,
         'battery': _series,
@@ -139,11 +140,12 @@ def _values(
         speed = float(np.hypot(*scene.world.wind_mps))
         return [('mean wind', np.full(scene.recording.ticks, speed))]
     groups = [case.things(n) for n in names]
-    if quantity in ('altitude', 'speed', 'battery'):
+    if quantity in ('altitude', 'speed', 'battery', 'vertical_speed'):
         picks: dict[str, Callable[[str], FloatArray]] = {
             'altitude': scene.altitude,
             'speed': scene.speed,
             'battery': functools.partial(battery, case),
+            'vertical_speed': scene.vertical_speed,
         }
         rows = [b for g in groups for b in g if scene.is_body(b)]
         if quantity != 'speed':

@@ -69,7 +69,8 @@ def happened(case: Case, requirement: Requirement) -> Happened:
 def _happened(case: Case, requirement: Requirement) -> Happened:
     trigger, action = requirement.get('trigger') or {}, requirement.get('action') or {}
     for part in (trigger, action):
-        gone = case.missing(*(v for v in part.values() if isinstance(v, str)))
+        names = (v for k, v in part.items() if isinstance(v, str) and k != 'text')
+        gone = case.missing(*names)
         if gone:
             return Happened(does_not(f'there is no {gone}'))
     if not trigger:
@@ -286,7 +287,9 @@ def _act(case: Case, requirement: Requirement, action: Mapping[str, Any], window
     }.get(str(do))
     if each is None:
         return Acted(cannot_tell(f'action {do!r} is not known'))
-    return _together([each(uav) for uav in uavs])
+    return _together(
+        [uav_actions.as_fast(case, requirement, action, uav, each(uav)) for uav in uavs]
+    )
 
 
 def _together(parts: list[Acted]) -> Acted:

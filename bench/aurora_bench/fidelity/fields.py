@@ -76,7 +76,7 @@ def for_all(parts: list[Fields], names: Iterable[str]) -> Fields:
 def world_fields(r: WorldRequirement, subject: Subject, rule: NumberRule) -> Fields:
     """Compare one field of the world; an unstated one has its default."""
     world = subject.spec.world
-    if r.field in ('duration_s', 'wind_mps', 'wind_from_deg'):
+    if r.field in ('duration_s', 'wind_mps', 'gust_mps', 'wind_from_deg'):
         return {'value': rule.counts('value', float(r.value), getattr(world, r.field))}
     found = {
         'weather': world.weather,

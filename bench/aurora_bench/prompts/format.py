@@ -44,7 +44,7 @@ QuantityName = Literal[
     'visible_time', 'visible_fraction', 'delivery_latency', 'delivered', 'delivery_ratio',
     'event_time', 'hover_drift', 'waypoints_visited', 'mission_completed', 'landed',
     'clearance', 'battery', 'wind', 'deceleration',
-    'time_headway', 'time_to_collision',
+    'time_headway', 'time_to_collision', 'vertical_speed',
 ]  # fmt: skip
 
 
@@ -69,7 +69,7 @@ class WorldRequirement(_Requirement):
     kind: Literal['world']
     field: Literal[
         'weather', 'time_of_day', 'map', 'traffic_density', 'duration_s', 'wind_mps',
-        'wind_from_deg', 'wind',
+        'gust_mps', 'wind_from_deg', 'wind',
     ]  # fmt: skip
     value: str | FiniteFloat
 
@@ -237,9 +237,11 @@ class Action(Document):
     ]  # fmt: skip
     sender: Ref | None = None
     receiver: Ref | None = None
+    text: Annotated[str, StringConstraints(min_length=1)] | None = None
     agent: Ref | None = None
     value_mps: FiniteFloat | None = None
     deceleration_mps2: FiniteFloat | None = None
+    vertical_mps: FiniteFloat | None = None  # of ascend, up or down
     uav: Ref | None = None
     to: Ref | None = None
     mode: MissionMode | None = None
@@ -270,10 +272,12 @@ MISSION_FIELDS = frozenset(MissionRequirement.model_fields) - {
 def fields_of_action(do: str) -> frozenset[str]:
     """Return the fields that an action of this kind may have."""
     if do == 'send_message':
-        return frozenset({'sender', 'receiver'})
+        return frozenset({'sender', 'receiver', 'text'})
     if do == 'change_mission':
         return MISSION_FIELDS | {'uav'}
-    if do in ('land', 'ascend'):
+    if do == 'ascend':
+        return frozenset({'uav', 'altitude_m', 'vertical_mps'})
+    if do == 'land':
         return frozenset({'uav', 'altitude_m'})
     if do == 'return_home':
         return frozenset({'uav'})

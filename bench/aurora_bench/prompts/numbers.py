@@ -164,6 +164,7 @@ def _dimension(path: str, requirement: Requirement | None) -> Dimension:
         return {
             'speed': Dimension.SPEED,
             'wind': Dimension.SPEED,
+            'vertical_speed': Dimension.SPEED,
             'deceleration': Dimension.ACCELERATION,
             'battery': Dimension.SHARE,
             'visible_time': Dimension.TIME,

@@ -282,12 +282,13 @@ def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
 def _action(a: Action, event_id: str, names: Names, numbers: Numbers) -> Doc:
     if a.do == 'send_message':
         sender = names.body(a.sender) if a.sender is not None else names.uav(None)
-        return {'do': a.do, 'sender': sender, 'receiver': names.body(a.receiver)}
+        text = {} if a.text is None else {'text': a.text}
+        return {'do': a.do, 'sender': sender, 'receiver': names.body(a.receiver), **text}
     if a.do in ('land', 'return_home', 'ascend', 'change_mission'):
         found: Doc = {'do': a.do, 'uav': names.uav(a.uav)}
         if a.do == 'change_mission':
             return found | {'mission': f'{event_id}_mission'}
-        given = numbers.of(a, ('altitude_m',), 'action.')
+        given = numbers.of(a, ('altitude_m', 'vertical_mps'), 'action.')
         return found | ({'altitude_m': default('altitude_m')} if a.do == 'ascend' else {}) | given
     side = {} if a.side is None else {'side': a.side}
     stated = numbers.of(a, ('value_mps', 'deceleration_mps2'), 'action.')

@@ -80,6 +80,7 @@ _QUANTITIES = {
         QuantityName.PRESENCE,
         QuantityName.JUMP,
         QuantityName.CLIMB_RATE,
+        QuantityName.VERTICAL_SPEED,
         QuantityName.DECELERATION,
         QuantityName.TIME_HEADWAY,
         QuantityName.TIME_TO_COLLISION,

@@ -18,6 +18,7 @@ from aurora_core.judging.happening import earliest_s
 from aurora_core.judging.mission import missions_of_uav
 from aurora_core.judging.quantities import (
     altitude,
+    climb_rate,
     completion_delay,
     deceleration,
     delivered,
@@ -68,6 +69,8 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             yield from _of_agent(inputs, event, action, source)
         if isinstance(action, UavAction) and action.altitude_m is not None:
             yield altitude.climb(inputs, action, action.altitude_m, event, source)
+            if action.vertical_mps is not None:
+                yield climb_rate.of_event(inputs, event, action, action.vertical_mps, source)
             if event.trigger is not None and not climbs_last(event):
                 yield completion_delay.of_climb(inputs, event, action, action.altitude_m, source)
         if isinstance(action, UavAction) and action.do == 'return_home':

@@ -24,6 +24,7 @@ from aurora_core.judging.mission import mission_arguments
 from aurora_core.judging.quantities.altitude import Altitude
 from aurora_core.judging.quantities.battery import Battery
 from aurora_core.judging.quantities.clearance import Clearance
+from aurora_core.judging.quantities.climb_rate import VerticalSpeed
 from aurora_core.judging.quantities.deceleration import HardestBraking
 from aurora_core.judging.quantities.distance import Distance
 from aurora_core.judging.quantities.event_time import EventTime
@@ -58,6 +59,7 @@ _SERIES: dict[str, tuple[type[StatedSeries], int]] = {
     'speed': (Speed, 1),
     'clearance': (Clearance, 2),
     'battery': (Battery, 1),
+    'vertical_speed': (VerticalSpeed, 1),
     'time_headway': (TimeHeadway, 2),
     'time_to_collision': (TimeToCollision, 2),
 }
@@ -123,7 +125,8 @@ def _bodies(inputs: Inputs, stated: StatedCondition, count: int) -> tuple[str, .
     if len(set(of)) != len(of) or (len(of) != count and not group):
         raise _unknown(stated)
     known = {a.id for a in inputs.spec.agents} | {u.id for u in inputs.spec.uavs}
-    if stated.quantity in _IN_THE_AIR and of[0] not in {u.id for u in inputs.spec.uavs}:
+    flown = stated.quantity in _IN_THE_AIR or stated.quantity == 'vertical_speed'
+    if flown and of[0] not in {u.id for u in inputs.spec.uavs}:
         raise _unknown(stated)
     if stated.quantity in _BEHIND and not {*of} <= {a.id for a in inputs.spec.agents}:
         raise _unknown(stated)

@@ -77,6 +77,8 @@ def target_of(tolerances: Tolerances, stated: StatedCondition) -> Target:
         Unit.METRE_PER_SECOND_SQUARED: tolerances.deceleration_mps2,
         Unit.SECOND: tolerances.duration_s,
     }.get(unit)
+    if stated.quantity == 'vertical_speed':
+        kind = tolerances.vertical_mps
     if stated.quantity == 'time_headway':
         kind = tolerances.headway_s
     if stated.quantity == 'altitude':

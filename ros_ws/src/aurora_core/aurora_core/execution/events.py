@@ -21,6 +21,7 @@ from aurora_core.quantities.actions import (
     CLIMBED_M,
     FROM_MOTION,
     ActionRules,
+    climbed_mps,
     commanded_mps,
     is_complete,
     rest_s,
@@ -217,7 +218,8 @@ class EventRunner:
             due = due and self._can_begin(event, seen) and self._has_stood(event, tick, dt_s)
             if due and self._allowed(event, seen, machines):
                 commands += self._act(tick, event, seen, machines)
-                note(tick, ScenarioEventKind.ACTION, event.id, '')
+                said = event.action.text if isinstance(event.action, SendMessage) else None
+                note(tick, ScenarioEventKind.ACTION, event.id, said or '')
                 self._begun(state, tick, seen, machines)
         return commands
 
@@ -491,4 +493,5 @@ def _order(machine: MissionMachine, action: UavAction) -> None:
     elif action.mission is not None:
         machine.change_to(action.mission)
     elif action.altitude_m is not None:
-        machine.climb_to(action.altitude_m.value)
+        asked = action.vertical_mps
+        machine.climb_to(action.altitude_m.value, None if asked is None else climbed_mps(asked))

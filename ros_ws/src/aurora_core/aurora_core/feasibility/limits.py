@@ -23,6 +23,7 @@ from aurora_core.spec.scenario import (
     SpeedTrigger,
     UavAction,
 )
+from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import AgentType
 
 # What a limit is on, in words; the others are on speeds.
@@ -31,6 +32,7 @@ _WHAT = {
     'duration_s': 'A scenario',
     'emergency_decel_mps2': 'A deceleration',
     'link_loss': 'A loss',
+    'gust_max_mps': 'A gust',
     'uav_altitude_m': 'An altitude',
     'uav_endurance_s': 'A phase',
     'uav_standoff_max_m': 'A standoff',
@@ -148,6 +150,16 @@ def _rules(
                 low=limits.uav_altitude_min_m,
                 high=limits.uav_altitude_max_m,
             )
+        if isinstance(action, UavAction) and action.vertical_mps is not None:
+            name, most_mps = _climb_limit(spec, action, limits)
+            yield _Rule(
+                path=f'events/{event.id}/action/vertical_mps',
+                parameter=action.vertical_mps,
+                reason='speed_limit',
+                limit_name=name,
+                low=0.0,
+                high=most_mps,
+            )
         if isinstance(action, AgentAction) and action.deceleration_mps2 is not None:
             yield from _braking(
                 spec,
@@ -190,6 +202,15 @@ def _rules(
             low=0.0,
             high=limits.wind_max_mps,
         )
+    if spec.world.gust_mps is not None:
+        yield _Rule(
+            path='world/gust_mps',
+            parameter=spec.world.gust_mps,
+            reason='speed_limit',
+            limit_name='gust_max_mps',
+            low=0.0,
+            high=limits.gust_max_mps,
+        )
     if spec.world.duration_s is not None:
         yield _Rule(
             path='world/duration_s',
@@ -199,6 +220,16 @@ def _rules(
             low=limits.duration_min_s,
             high=limits.duration_max_s,
         )
+
+
+def _climb_limit(spec: ScenarioSpec, action: UavAction, limits: Limits) -> tuple[str, float]:
+    """Return the limit on a climb; on a descent where the UAV is surely higher before."""
+    own = [m.altitude_m for m in spec.missions if m.uav == action.uav]
+    to = action.altitude_m
+    down = to is not None and is_stated(to) and bool(own)
+    if down and to is not None and all(is_stated(a) and a.value > to.value for a in own):
+        return 'uav_descent_max_mps', limits.uav_descent_max_mps
+    return 'uav_climb_max_mps', limits.uav_climb_max_mps
 
 
 def _braking(

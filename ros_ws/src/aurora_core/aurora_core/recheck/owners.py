@@ -18,7 +18,9 @@ _MISSIONS: Mapping[str, str] = MappingProxyType(
         'duration_s': 'uav_endurance_s',
     }
 )
-_WORLD = MappingProxyType({'wind_mps': 'wind_max_mps', 'duration_s': 'duration_s'})
+_WORLD = MappingProxyType(
+    {'wind_mps': 'wind_max_mps', 'gust_mps': 'gust_max_mps', 'duration_s': 'duration_s'}
+)
 
 
 def limits_on(spec: dict[str, Any], path: str, *, above: bool) -> tuple[str, ...]:
@@ -60,6 +62,15 @@ def _of_agent(spec: dict[str, Any], name: str) -> tuple[str, ...]:
     return general, f'agent_types/{kind}/max_speed_mps'
 
 
+def _climb(spec: dict[str, Any], action: dict[str, Any]) -> tuple[str, ...]:
+    """Up at most; down where every altitude of the UAV is stated and higher."""
+    to = action['altitude_m']
+    own = [m['altitude_m'] for m in spec.get('missions', ()) if m['uav'] == action['uav']]
+    stated = all(a['provenance'] == 'explicit' for a in (to, *own))
+    down = bool(own) and stated and all(a['value'] > to['value'] for a in own)
+    return ('uav_descent_max_mps',) if down else ('uav_climb_max_mps',)
+
+
 def _braking(spec: dict[str, Any], name: str) -> tuple[str, ...]:
     kinds = [a['type'] for a in spec.get('agents', ()) if name in (a['id'], a.get('group'))]
     return tuple(f'agent_types/{kind}/emergency_decel_mps2' for kind in kinds[:1])
@@ -71,6 +82,8 @@ def _of_event(spec: dict[str, Any], event: dict[str, Any], field: str) -> tuple[
         return ('uav_altitude_m',)
     if field == 'trigger/value_mps' and trigger['on'] == 'speed_above':
         return _of_agent(spec, trigger['who'])
+    if field == 'action/vertical_mps':
+        return _climb(spec, action)
     if field == 'action/deceleration_mps2':
         return _braking(spec, action['agent'])
     if field == 'action/altitude_m':

@@ -189,6 +189,7 @@ HELPS: Mapping[str, tuple[Help, ...]] = MappingProxyType(
             Help(name='1', direction=1, weight=1.0, because='a short leg shows no speed'),
         ),
         Q.CLIMB_RATE: (_place(0.5, _WALLS),),
+        Q.VERTICAL_SPEED: (_place(0.5, _WALLS),),
         Q.WIND: (_place(0.5, 'the wind there'),),
         Q.CLEARANCE: (_place(1.5, _WALLS),),
         Q.BATTERY: _FLOWN,

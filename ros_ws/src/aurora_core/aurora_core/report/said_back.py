@@ -130,7 +130,7 @@ def _named_numbers(element: Document, *, stated: bool, said: Sequence[str] = ())
 
 def _plain(field: str) -> str:
     """Return the name of a field without its unit: `closing_from_m` is `closing from`."""
-    for unit in ('_mps', '_deg', '_m', '_s'):
+    for unit in ('_mps2', '_mps', '_deg', '_m', '_s'):
         if field.endswith(unit):
             return field.removesuffix(unit).replace('_', ' ')
     return field.replace('_', ' ')
@@ -324,8 +324,9 @@ def _trigger(trigger: Trigger) -> str:
 
 def _action(action: EventAction) -> str:
     match action:
-        case SendMessage(sender=sender, receiver=receiver):
-            return f'{sender} sends a message to {receiver}'
+        case SendMessage(sender=sender, receiver=receiver, text=text):
+            says = '' if text is None else f' that says "{text}"'
+            return f'{sender} sends a message to {receiver}{says}'
         case UavAction(do='change_mission', uav=uav, mission=mission):
             return f'{uav} goes over to {mission}'
         case UavAction(do=do, uav=uav) | AgentAction(do=do, agent=uav):

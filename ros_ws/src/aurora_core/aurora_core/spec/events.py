@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, StringConstraints, model_validator
 
 from aurora_core.document import omitted
 from aurora_core.spec.parameter import Bound, Element, Parameter, Span
@@ -119,11 +119,12 @@ Trigger = Annotated[
 
 
 class SendMessage(Element):
-    """Send a message over the link between the two."""
+    """Send a message over the link between the two; what it says is recorded with it."""
 
     do: Literal['send_message']
     sender: Id
     receiver: Id
+    text: Annotated[str, StringConstraints(min_length=1, max_length=200)] | None = omitted(None)
 
 
 # What a ground agent can be made to do.
@@ -159,11 +160,17 @@ class AgentAction(Element):
 
 
 class UavAction(Element):
-    """A UAV changes what it does; `return_home` lands it where it started."""
+    """A UAV changes what it does; `return_home` lands it where it started.
+
+    Attributes:
+        altitude_m: Where it climbs or descends to (`ascend`).
+        vertical_mps: How fast it does that, up or down; above zero.
+    """
 
     do: Literal['land', 'return_home', 'ascend', 'change_mission']
     uav: Id
     altitude_m: Parameter | None = None
+    vertical_mps: Parameter | None = omitted(None)
     mission: Id | None = None
 
     @model_validator(mode='after')
@@ -172,6 +179,8 @@ class UavAction(Element):
             raise ValueError(f'a mission belongs to change_mission alone, found it with {self.do}')
         if self.do == 'ascend' and self.altitude_m is None:
             raise ValueError('ascend needs altitude_m')
+        if self.do != 'ascend' and self.vertical_mps is not None:
+            raise ValueError(f'a vertical speed belongs to ascend, found it with {self.do}')
         return self
 
     @property

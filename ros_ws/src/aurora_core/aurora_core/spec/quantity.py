@@ -57,6 +57,7 @@ class QuantityName(StrEnum):
     PRESENCE = 'presence'
     JUMP = 'jump'
     CLIMB_RATE = 'climb_rate'
+    VERTICAL_SPEED = 'vertical_speed'
     DECELERATION = 'deceleration'
     TIME_HEADWAY = 'time_headway'
     TIME_TO_COLLISION = 'time_to_collision'

@@ -24,6 +24,7 @@ STATED_QUANTITIES: Mapping[str, Unit] = MappingProxyType(
         QuantityName.SEPARATION.value: Unit.METRE,
         QuantityName.ALTITUDE.value: Unit.METRE,
         QuantityName.SPEED.value: Unit.METRE_PER_SECOND,
+        QuantityName.VERTICAL_SPEED.value: Unit.METRE_PER_SECOND,
         QuantityName.DECELERATION.value: Unit.METRE_PER_SECOND_SQUARED,
         QuantityName.TIME_HEADWAY.value: Unit.SECOND,
         QuantityName.TIME_TO_COLLISION.value: Unit.SECOND,

@@ -33,11 +33,12 @@ from aurora_core.spec.vocabulary import (
 class World(Element):
     """Where and when: map name, weather, time of day, traffic, horizon (None = inferred).
 
-    A wind that is named, in one of three ways or several, replaces that of the weather; gusts are
-    those of the weather.
+    A wind that is named, in one of three ways or several, replaces that of the weather; so do
+    gusts whose speed is named.
 
     Attributes:
         wind_mps: Mean speed of the wind.
+        gust_mps: Speed of the wind at the height of a gust.
         wind_from_deg: Compass bearing that it comes from; None: open.
         wind: How it meets the longest leg, or the way of a tracked vehicle at capture.
         seed: The seed that the prompt asks for; None: that of the run.
@@ -51,6 +52,7 @@ class World(Element):
     traffic_density: TrafficDensity | None = None
     duration_s: Parameter | None = None
     wind_mps: Parameter | None = omitted(None)
+    gust_mps: Parameter | None = omitted(None)
     wind_from_deg: Parameter | None = omitted(None)
     wind: RelativeWind | None = omitted(None)
     wind_span: Span | None = omitted(None)

@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Kinds of conditions on braking and headways: satisfied, violated, not judged."""
+"""Kinds of conditions on braking, headways and climbs: satisfied, violated, not judged."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from kind_rows import Row, gone, stated
-from trace_builder import number
-from trace_cases import Case, ground_case, spec
+from kind_rows import Row, cut, gone, stated
+from trace_builder import flight, number
+from trace_cases import Case, ground_case, hover_case, spec
 
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
@@ -149,7 +149,66 @@ HEADWAYS = (
     ),
 )
 
-ROWS = (*BRAKING, *HEADWAYS)
+
+def _climbs(
+    rate_mps: float, asked_mps: float, bound: Bound = Bound.EXACTLY, at_s: float = 15.0
+) -> Case:
+    """It climbs to 30 m, and from 15 s on goes to 60 m."""
+
+    def path(k: int) -> tuple[float, float, float]:
+        return (100.0, 0.0, min(60.0, 30.0 + rate_mps * 0.05 * max(0, k - 300)))
+
+    case = hover_case()
+    case.run.flights[:] = [flight(1401, (100.0, 20.0), 30.0, path, landing=1300)]
+    asked = number(asked_mps, Unit.METRE_PER_SECOND, explicit=True, bound=bound)
+    action = {'do': 'ascend', 'uav': 'uav1', 'altitude_m': number(60.0), 'vertical_mps': asked}
+    trigger = {'on': 'time', 'at_s': number(at_s, Unit.SECOND)}
+    event = {'id': 'e1', 'trigger': trigger, 'action': action}
+    case.spec = spec(**{**dict(case.spec), 'events': (event,)})
+    return case
+
+
+def _vertical(op: str, value: float) -> Case:
+    """From its capture on it goes neither up nor down."""
+    return stated(hover_case(), 'vertical_speed', ('uav1',), op, value)
+
+
+CLIMBS = (
+    Row(id='e1.vertical_speed', make=lambda: _climbs(1.5, 1.5), margin=0.3, within=0.05),
+    Row(id='e1.vertical_speed', make=lambda: _climbs(3.0, 1.5), margin=0.3 - 1.5, within=0.1),
+    Row(id='e1.vertical_speed', make=lambda: _climbs(1.5, 1.5, at_s=99.0), reason=NEVER),
+    Row(
+        id='e1.vertical_speed',
+        make=lambda: _climbs(1.0, 2.0, Bound.AT_LEAST),
+        margin=1.0 - 2.0,
+        within=0.05,
+        what='too-slowly',
+    ),
+    # With 1 m/s it needs its half minute.
+    Row(
+        id='e1.completed',
+        make=lambda: _climbs(1.0, 1.0),
+        margin=2.0 - (28.0 - 30.0 / 0.7),
+        within=0.1,
+        what='as-slowly',
+    ),
+    Row(id='c1.holds', make=lambda: _vertical('<=', 2.0), margin=2.0, within=0.1, what='level'),
+    Row(
+        id='c1.holds',
+        make=lambda: _vertical('>=', 0.5),
+        margin=0.0 - 0.5,
+        within=0.1,
+        what='level',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: cut(_vertical('<=', 2.0), 100),
+        reason=Reason.TRACE_SHORT,
+        what='level',
+    ),
+)
+
+ROWS = (*BRAKING, *HEADWAYS, *CLIMBS)
 
 
 @pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)

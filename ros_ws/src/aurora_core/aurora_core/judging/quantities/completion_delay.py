@@ -26,7 +26,7 @@ from aurora_core.judging.quantities.lane_change import the_lane
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import motion
-from aurora_core.quantities.actions import ends_with_mps
+from aurora_core.quantities.actions import ends_with_mps, least_climb_mps
 from aurora_core.quantities.braking import least_mps2, most_mps2
 from aurora_core.quantities.lane_changes import LANE_CHANGE_S
 from aurora_core.quantities.ticks import first_tick
@@ -165,6 +165,9 @@ def of_climb(
     """Return that a UAV is soon where an event makes it climb to."""
     allowed_s = inputs.tolerances.action_done_s
     rates = climb_mps(inputs), descent_mps(inputs)
+    if action.vertical_mps is not None:
+        least = least_climb_mps(action.vertical_mps, inputs.tolerances.vertical_mps)
+        rates = min(rates[0], least), min(rates[1], least)
     if altitude.provenance is Provenance.EXPLICIT:
         source = stated_by(source, altitude)
     return condition(

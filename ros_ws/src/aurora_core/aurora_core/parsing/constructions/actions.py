@@ -165,6 +165,7 @@ def _uav_action(frame: Frame) -> UavAction | None:
             do=landed_by(frame) if frame.key == 'land' else 'ascend',
             uav=uavs[0].id,
             altitude_m=found.altitude,
+            vertical_mps=None if frame.key == 'land' else found.speed,
         )
     scene: Scene = frame.scene
     before = len(scene.missions)

@@ -117,6 +117,9 @@ def _action(name: str, given: ActionReading, parts: Parts) -> EventAction:
     fields['sender' if message else 'uav' if flies else 'agent'] = parts.ref(given.subject)
     receiver = parts.ref_or_none(given.receiver)
     _put(fields, 'receiver' if message else '', receiver, f'{where}.receiver')
+    if given.text and not parts.facts.spans(given.text):
+        parts.complaints.append(f'{where}.text: {given.text!r} is not in the prompt')
+    _put(fields, 'text' if message else '', given.text or None, f'{where}.text')
     _put(fields, 'mission' if flies else '', mission, f'{where}.mission')
     _put(fields, 'side' if given.do == 'change_lane' else '', given.side, f'{where}.side')
     hard = parts.number('deceleration', given.deceleration_mps2, f'{where}.deceleration_mps2')
@@ -126,6 +129,9 @@ def _action(name: str, given: ActionReading, parts: Parts) -> EventAction:
         hard,
         f'{where}.deceleration_mps2',
     )
+    rate = parts.number('vertical_speed', given.vertical_mps, f'{where}.vertical_mps')
+    climbs = given.do == 'ascend'
+    _put(fields, 'vertical_mps' if climbs else '', rate, f'{where}.vertical_mps')
     parameter = 'altitude' if flies else 'ground_speed'
     value = parts.number(parameter, given.value, f'{where}.value')
     _put(fields, '' if message else 'altitude_m' if flies else 'value_mps', value, where)

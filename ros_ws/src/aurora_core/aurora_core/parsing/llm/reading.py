@@ -57,6 +57,7 @@ class WorldReading(Document):
     traffic_density: TrafficDensity | None = None
     duration_s: Number | None = None
     wind_mps: Number | None = None
+    gust_mps: Number | None = None
     wind_from_deg: Number | None = None
     wind: RelativeWind | None = None
 
@@ -180,8 +181,10 @@ class ActionReading(Document):
     ]
     subject: Name
     receiver: Name | None = None
+    text: Annotated[str, StringConstraints(max_length=200)] | None = None
     value: Number | None = None
     deceleration_mps2: Number | None = None
+    vertical_mps: Number | None = None
     mission: Name | None = None
     side: LaneSide | None = None
 
@@ -221,6 +224,7 @@ class ConditionReading(Document):
         'separation',
         'altitude',
         'speed',
+        'vertical_speed',
         'deceleration',
         'time_headway',
         'time_to_collision',

@@ -162,6 +162,7 @@ def _add_world(said: WorldReading, parts: Parts) -> None:
     draft.traffic = said.traffic_density
     draft.duration = parts.number('scenario_duration', said.duration_s, 'world.duration_s')
     draft.wind_speed = parts.number('wind_speed', said.wind_mps, 'world.wind_mps')
+    draft.gust = parts.number('gust_speed', said.gust_mps, 'world.gust_mps')
     draft.wind_from = parts.number('wind_from', said.wind_from_deg, 'world.wind_from_deg')
     draft.wind = said.wind
 
