@@ -19,8 +19,10 @@ from aurora_bench.checker.sight import STEP_S, visible
 
 # "Arrives": the contract states no distance; from this one to where the body is nearest.
 ARRIVED_FROM_M = 40.0
-# When a gap in seconds falls below a number is known so well (s).
+# When a gap in seconds falls below a number is known so well (s); between two samples, 0.2 s
+# apart and measured along another line, it may have been shorter by so much.
 BLUR_S = 0.4
+BETWEEN_S = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,8 +129,7 @@ def _behind(case: Case, trigger: Mapping[str, Any]) -> Fired:
         for b in case.bodies(trigger.get('b')):
             values, _ = headways.seconds(case.scene, quantity, a, b)
             with np.errstate(invalid='ignore'):
-                # Gaps are measured along another line, every 0.2 s.
-                found += edges(case, np.asarray(values <= value), BLUR_S)
+                found += edges(case, np.asarray(values <= value + BETWEEN_S), BLUR_S)
             least.append(round(float(np.nanmin(values)), 2))
     return Fired(_sorted(found), why=f'{quantity} {least} s against {value:g}')
 

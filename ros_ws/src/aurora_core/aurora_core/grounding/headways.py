@@ -9,9 +9,12 @@ from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 
-# Gap to stand with (m), and so far inside a bound a headway is kept (s).
+# Gap to stand with (m).
 _STANDS_M = 1.0
-_INSIDE_S = 0.15
+# So far inside a bound a headway is kept, by share and at least (s): who comes up from behind is
+# faster than whom it follows, and nearer for that.
+_INSIDE_SHARE = 0.25
+_INSIDE_S = 0.3
 # Nobody follows closer than this (s): the least reaction time of the simulator's drivers.
 _LEAST_S = 0.05
 _BOUNDS = {'>=': Bound.AT_LEAST, '>': Bound.AT_LEAST, '<=': Bound.AT_MOST, '<': Bound.AT_MOST}
@@ -45,5 +48,6 @@ def headway_style(
     """
     longer_s2pm = 1.0 / own.decel_mps2 - 1.0 / max(own.decel_mps2, other.decel_mps2)
     beside_s = _STANDS_M / pace_mps + longer_s2pm * pace_mps / 2.0
-    time_gap_s = asked.inside(_INSIDE_S) - beside_s
+    inside_s = max(_INSIDE_S, _INSIDE_SHARE * asked.value)
+    time_gap_s = asked.inside(inside_s) - beside_s
     return {'min_gap_m': _STANDS_M, 'time_gap_s': max(_LEAST_S, time_gap_s)}
