@@ -124,7 +124,8 @@ def edges(case: Case, true: BoolArray, blur_s: float = 0.0) -> tuple[Instant, ..
 
 def _behind(case: Case, trigger: Mapping[str, Any]) -> Fired:
     quantity = 'time_headway' if trigger['on'] == 'headway_below' else 'time_to_collision'
-    value, found, least = float(trigger.get('value_s', 0.0)), [], []
+    value, found = float(trigger.get('value_s', 0.0)), list[Instant]()
+    least: list[float] = []
     for a in case.bodies(trigger.get('a')):
         for b in case.bodies(trigger.get('b')):
             values, _ = headways.seconds(case.scene, quantity, a, b)
