@@ -85,7 +85,7 @@ def ground_action(
         case 'accelerate':
             return _accelerate(case, agent, window, speed)
         case 'brake':
-            return _brake(case, agent, window, speed)
+            return _brake(case, agent, window, speed, _least(action))
         case 'start':
             return _start(case, agent, window, speed)
         case 'change_lane':
@@ -298,10 +298,16 @@ def _braking_anew(case: Case, agent: str, window: Window) -> BoolArray:
     return slowing
 
 
-def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted:
+def _least(action: Mapping[str, Any]) -> float:
+    """Return how hard somebody slows down at least who brakes: half of a stated number will do."""
+    stated = action.get('deceleration_mps2')
+    usual = limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE)
+    return usual if stated is None else min(usual, float(stated) / 2.0)
+
+
+def _brake(case: Case, agent: str, window: Window, value: float | None, least: float) -> Acted:
     scene = case.scene
     slowing = _slowing(case, agent) if window.free else _braking_anew(case, agent, window)
-    least = limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE)
     for a, b in runs_of(_slowing(case, agent)):
         if _hardest(case, agent, a, b) >= least and _comes_early(case, agent, window, a):
             return Acted(does_not(f'{agent} brakes at {scene.times[a]:.2f} s, too early'))
@@ -326,18 +332,16 @@ def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted
         hard = _hardest(case, agent, max(a, onset), b)
         if hard > hardest:
             hardest, end = hard, b
-        if hard >= limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE):
+        if hard >= least:
             break
     start, done = float(scene.times[onset]), float(scene.times[min(end, len(slowing) - 1)])
     why = f'{agent} brakes from {start:.2f} s with up to {hardest:.2f} m/s^2'
-    enough = hardest >= limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE)
-    judged = graded(enough, hardest >= LEAST_BRAKE_MPS2, why)
+    judged = graded(hardest >= least, hardest >= LEAST_BRAKE_MPS2, why)
     if value is not None:
         slack = limits.tolerance(limits.SPEED, value)
         if not (np.abs(scene.speed(agent)[onset:] - value) <= slack).any():
             judged = does_not(f'{why}, but never to {value:g} m/s')
     # Who brakes has done so once he brakes hard enough, and at the latest when he stops doing so.
-    least = limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE)
     enough_at = (t for t in range(onset, end) if _hardest(case, agent, t, t + 1) >= least)
     return Acted(
         judged,

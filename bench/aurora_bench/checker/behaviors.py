@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import functools
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from aurora_bench.checker import limits
+from aurora_bench.checker import headways, limits
 from aurora_bench.checker.actions import Window, ground_action
 from aurora_bench.checker.answers import (
     Judged,
@@ -22,7 +23,7 @@ from aurora_bench.checker.answers import (
 )
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.events import happened
-from aurora_bench.checker.numbers import wanted
+from aurora_bench.checker.numbers import Wanted, wanted
 from aurora_bench.checker.on_the_way import stated_between
 from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
 from aurora_bench.checker.paths import way
@@ -61,11 +62,23 @@ def _one(case: Case, requirement: Requirement, body: str) -> Judged:
 
 def _kind(case: Case, requirement: Requirement, body: str) -> Judged:
     targets = [t for t in case.things(requirement.get('target')) if t != body]
-    pairs = {'tailgate': tailgate, 'overtake': overtake, 'approach': approach}
+    pairs: dict[str, Callable[..., Judged]] = {
+        'tailgate': tailgate,
+        'overtake': overtake,
+        'approach': approach,
+    }
     kind = str(requirement.get('behavior'))
     if kind in (*pairs, 'follow'):
         if not targets:
             return cannot_tell(f'{kind} whom is not annotated')
+        number = wanted(requirement, 'headway_s', case.variation, limits.HEADWAY)
+        if number is not None:
+            kept = [headways.keeps(case.scene, body, t, number) for t in targets]
+            # What is stated in seconds is as far as the fastest one drives in them.
+            room = Wanted(number.value, 0.0, number.high * limits.VEHICLE_MPS, 0.0)
+            pairs['follow'] = functools.partial(follow, stated=room)
+            plain = [pairs[kind](case.scene, body, t) for t in targets]
+            return all_of([any_of(plain), any_of(kept)])
         if kind == 'follow':
             gaps = [(t, stated_between(case, body, t)) for t in targets]
             return any_of([follow(case.scene, body, t, stated) for t, stated in gaps])

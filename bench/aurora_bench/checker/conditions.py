@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from aurora_bench.checker import endings, missions
+from aurora_bench.checker import endings, headways, missions
 from aurora_bench.checker.answers import (
     Judged,
     all_of,
@@ -49,6 +49,10 @@ def condition(case: Case, requirement: Requirement) -> Judged:
         'altitude': _series,
         'speed': _series,
         'clearance': _series,
+        'time_headway': _series,
+        'vertical_speed': _series,
+        'time_to_collision': _series,
+        'deceleration': _hardest_braking,
         'battery': _series,
         'wind': _series,
         'tracked_fraction': _tracked,
@@ -136,16 +140,24 @@ def _values(
         speed = float(np.hypot(*scene.world.wind_mps))
         return [('mean wind', np.full(scene.recording.ticks, speed))]
     groups = [case.things(n) for n in names]
-    if quantity in ('altitude', 'speed', 'battery'):
+    if quantity in ('altitude', 'speed', 'battery', 'vertical_speed'):
         picks: dict[str, Callable[[str], FloatArray]] = {
             'altitude': scene.altitude,
             'speed': scene.speed,
             'battery': functools.partial(battery, case),
+            'vertical_speed': scene.vertical_speed,
         }
         rows = [b for g in groups for b in g if scene.is_body(b)]
         if quantity != 'speed':
             rows = [b for b in rows if scene.bodies[b].is_uav]
         return [(f'{quantity} of {b}', picks[quantity](b)) for b in rows]
+    if quantity in ('time_headway', 'time_to_collision'):
+        return [
+            (f'{quantity} of {a} behind {b}', _seconds_behind(case, requirement, a, b))
+            for a in groups[0]
+            for b in (groups[1] if len(groups) > 1 else ())
+            if a != b and scene.is_body(a) and scene.is_body(b)
+        ]
     if quantity == 'clearance':
         return [
             (f'{a} to {b}', _clearance(case, a, b))
@@ -170,6 +182,19 @@ def _values(
         for a, b in pairs
         if scene.is_body(a) or scene.is_body(b)
     ]
+
+
+def _seconds_behind(case: Case, requirement: Requirement, a: str, b: str) -> FloatArray:
+    """Return headway or time to collision; who stands has no headway to be within."""
+    values, moves = headways.seconds(case.scene, str(requirement['quantity']), a, b)
+    return np.where(moves, values, np.nan) if _from_first(requirement) else values
+
+
+def _from_first(requirement: Requirement) -> bool:
+    """Return whether a bound counts from when it is first kept: nobody is near at a start."""
+    upper = requirement['op'] in ('<', '<=', '==')
+    plain = all(requirement.get(name) is None for name in ('hold_s', 'by_s', 'fraction'))
+    return requirement['quantity'] == 'time_headway' and upper and plain
 
 
 def _clearance(case: Case, uav: str, thing: str) -> FloatArray:
@@ -221,7 +246,8 @@ def _over_time(
         both = (inner >= need - EPSILON, outer >= need - EPSILON)
         return graded(all(both), any(both), why)
     flies = any(case.scene.bodies[b].is_uav for n in requirement['of'] for b in case.bodies(n))
-    if requirement['quantity'] == 'speed' and op in ('>', '>=') and not flies:
+    floor = requirement['quantity'] == 'speed' and op in ('>', '>=') and not flies
+    if floor or _from_first(requirement):
         # Everybody stands at first: who is never to be slower is so from then on.
         reached = np.flatnonzero(true & counted)
         if not len(reached):
@@ -229,6 +255,22 @@ def _over_time(
         counted = counted & (np.arange(len(row)) >= reached[0])
     bad = int((~true[counted]).sum())
     return decide(bad == 0, f'{why}; {bad * dt_s:.2f} s of {counted.sum() * dt_s:.1f} s outside')
+
+
+def _hardest_braking(case: Case, requirement: Requirement) -> Judged:
+    """Return how hard bodies brake at their hardest: a moment of it counts."""
+    value, slack = value_of(case, requirement)
+    test = compare(str(requirement['op']), value, slack)
+    parts = []
+    for body in (b for n in requirement['of'] for b in case.bodies(n)):
+        lost = -np.diff(case.scene.speed(body)) / case.scene.dt_s
+        there = case.scene.present(body)
+        hardest = float(lost[there[1:] & there[:-1]].max(initial=0.0))
+        # One step of the simulation may be a little harder than what was commanded.
+        near = bool(test(hardest * 0.98)) or bool(test(hardest * 1.02))
+        why = f'{body} brakes with {hardest:.2f} m/s^2 at its hardest'
+        parts.append(graded(bool(test(hardest)), near, why))
+    return all_of(parts) if parts else does_not('there is nobody who could brake')
 
 
 def _tracked(case: Case, requirement: Requirement) -> Judged:

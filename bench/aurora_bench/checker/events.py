@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from aurora_bench.checker import limits, uav_actions
+from aurora_bench.checker import braking, limits, uav_actions
 from aurora_bench.checker.actions import GROUND_ACTIONS, Acted, Window, ground_action
 from aurora_bench.checker.answers import (
     Judged,
@@ -72,7 +72,8 @@ def happened(case: Case, requirement: Requirement) -> Happened:
 def _happened(case: Case, requirement: Requirement) -> Happened:
     trigger, action = requirement.get('trigger') or {}, requirement.get('action') or {}
     for part in (trigger, action):
-        gone = case.missing(*(v for v in part.values() if isinstance(v, str)))
+        names = (v for k, v in part.items() if isinstance(v, str) and k != 'text')
+        gone = case.missing(*names)
         if gone:
             return Happened(does_not(f'there is no {gone}'))
     if not trigger:
@@ -287,7 +288,15 @@ def _act(case: Case, requirement: Requirement, action: Mapping[str, Any], window
         if not agents:
             return Acted(does_not(f'there is no {action.get("agent")!r}'))
         others = _others(case, requirement, agents)
-        return _together([ground_action(case, action, agent, window, others) for agent in agents])
+        acted = [ground_action(case, action, agent, window, others) for agent in agents]
+        number = braking.asked(case, requirement, action)
+        if number is not None:
+            acted = [
+                replace(a, judged=all_of([a.judged, braking.braked(case, agent, start, number)]))
+                for agent, a in zip(agents, acted, strict=True)
+                for start in (window.early_s if a.start_s is None else a.start_s,)
+            ]
+        return _together(acted)
     uavs = case.bodies(action.get('uav'))
     if not uavs:
         return Acted(does_not(f'there is no {action.get("uav")!r}'))
@@ -303,7 +312,9 @@ def _act(case: Case, requirement: Requirement, action: Mapping[str, Any], window
     }.get(str(do))
     if each is None:
         return Acted(cannot_tell(f'action {do!r} is not known'))
-    return _together([each(uav) for uav in uavs])
+    return _together(
+        [uav_actions.as_fast(case, requirement, action, uav, each(uav)) for uav in uavs]
+    )
 
 
 def _together(parts: list[Acted]) -> Acted:

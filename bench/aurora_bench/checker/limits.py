@@ -65,6 +65,9 @@ STOPPED_MPS = 0.1
 STOPPED_S = 2.0
 STARTED_MPS = 0.5
 BRAKE_MPS2 = 4.0
+DECELERATION = (0.3, 0.10)
+HEADWAY = (0.3, 0.15)
+VERTICAL = (0.3, 0.10)
 ACCELERATE_BY_MPS = 4.0
 LANE_HELD_S = 2.0
 DELIVERED_S = 2.0
@@ -89,6 +92,7 @@ TAILGATE_S = 5.0
 FREE_AHEAD_M = 50.0
 # Nobody gives way to who passes farther away than this.
 YIELDS_WITHIN_M = 60.0
+VEHICLE_MPS = 50.0
 
 # Background vehicles per kilometre of drivable street within 300 m of the anchor.
 TRAFFIC_PER_KM = {'low': 3.0, 'medium': 8.0, 'high': 20.0}

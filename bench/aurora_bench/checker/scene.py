@@ -123,6 +123,13 @@ class Scene:
         """Return (ticks,) metres above ground."""
         return self.xyz(uav)[:, 2]
 
+    def vertical_speed(self, uav: str) -> FloatArray:
+        """Return (ticks,) m/s up or down, over 0.2 s."""
+        steps = max(1, round(0.2 / self.dt_s))
+        z, rate = self.altitude(uav), np.zeros(self.recording.ticks)
+        rate[steps:] = np.abs(z[steps:] - z[:-steps]) / (steps * self.dt_s)
+        return rate
+
     def airborne(self, uav: str) -> BoolArray:
         """Return (ticks,) whether a UAV is off the ground."""
         rows = self.recording.uav[:, self.bodies[uav].row]

@@ -41,6 +41,9 @@ def value_of(case: Case, requirement: Requirement) -> tuple[float, float]:
     rule = {
         'altitude': limits.ALTITUDE,
         'speed': limits.SPEED,
+        'vertical_speed': limits.VERTICAL,
+        'deceleration': limits.DECELERATION,
+        'time_headway': limits.HEADWAY,
         'event_time': limits.DURATION,
         'distance': limits.STANDOFF,
         'horizontal_distance': limits.STANDOFF,

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from aurora_bench.checker import limits
+from aurora_bench.checker import headways, limits
 from aurora_bench.checker.case import Case
 from aurora_bench.checker.phases import ascent_end_tick, landing_tick, segments
 from aurora_bench.checker.recording import BoolArray, FloatArray, LinkKind
@@ -19,6 +19,10 @@ from aurora_bench.checker.sight import STEP_S, visible
 
 # "Arrives": the contract states no distance; from this one to where the body is nearest.
 ARRIVED_FROM_M = 40.0
+# When a gap in seconds falls below a number is known so well (s); between two samples, 0.2 s
+# apart and measured along another line, it may have been shorter by so much.
+BLUR_S = 0.4
+BETWEEN_S = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +67,8 @@ def fired(case: Case, trigger: Mapping[str, Any], done: DoneTimes) -> Fired:
             return Fired((Instant(at, at),))
         case 'distance_below' | 'distance_above':
             return _distance(case, trigger)
+        case 'headway_below' | 'ttc_below':
+            return _behind(case, trigger)
         case 'visible' | 'occluded':
             return _sight(case, trigger)
         case 'altitude_reached':
@@ -114,6 +120,19 @@ def edges(case: Case, true: BoolArray, blur_s: float = 0.0) -> tuple[Instant, ..
         Instant(max(float(times[a]) - blur_s, 0.0), float(times[a]) + blur_s)
         for a, _ in runs_of(true)
     )
+
+
+def _behind(case: Case, trigger: Mapping[str, Any]) -> Fired:
+    quantity = 'time_headway' if trigger['on'] == 'headway_below' else 'time_to_collision'
+    value, found = float(trigger.get('value_s', 0.0)), list[Instant]()
+    least: list[float] = []
+    for a in case.bodies(trigger.get('a')):
+        for b in case.bodies(trigger.get('b')):
+            values, _ = headways.seconds(case.scene, quantity, a, b)
+            with np.errstate(invalid='ignore'):
+                found += edges(case, np.asarray(values <= value + BETWEEN_S), BLUR_S)
+            least.append(round(float(np.nanmin(values)), 2))
+    return Fired(_sorted(found), why=f'{quantity} {least} s against {value:g}')
 
 
 def _distance(case: Case, trigger: Mapping[str, Any]) -> Fired:

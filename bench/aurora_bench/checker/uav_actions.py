@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,12 +21,14 @@ from aurora_bench.checker.answers import (
     graded,
     holds,
 )
-from aurora_bench.checker.case import Case
+from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.flight import Flight
+from aurora_bench.checker.numbers import wanted
 from aurora_bench.checker.phases import Segment, landing_tick, segments
 from aurora_bench.checker.recording import LinkKind
 
 STEPS = 2
+VERTICAL = 'action.vertical_mps'
 
 
 def _inside(case: Case, window: Window, time_s: float) -> bool:
@@ -191,6 +194,26 @@ def return_home(case: Case, uav: str, window: Window) -> Acted:
     away = float(np.linalg.norm(xy[-1] - xy[0]))
     home = decide(away <= limits.RETURN_M, f'{uav} lands {away:.1f} m from its start')
     return Acted(all_of([landed.judged, home]), landed.start_s, landed.done_s)
+
+
+def as_fast(
+    case: Case, requirement: Requirement, action: Mapping[str, Any], uav: str, acted: Acted
+) -> Acted:
+    """Return what became of a climb or descent, with its stated speed."""
+    stated = {**requirement, VERTICAL: action.get('vertical_mps')}
+    number = wanted(stated, VERTICAL, case.variation, limits.VERTICAL)
+    if number is None or acted.start_s is None or acted.done_s is None:
+        return acted
+    first, last = case.scene.tick(acted.start_s), case.scene.tick(acted.done_s)
+    z = case.scene.altitude(uav)[first : last + 1]
+    way = np.abs(z - z[0])
+    steady = np.flatnonzero((way >= 0.2 * way[-1]) & (way <= 0.8 * way[-1]))
+    if len(steady) < 3:
+        return replace(acted, judged=cannot_tell(f'{uav} hardly climbs'))
+    rate = abs(float(np.polyfit(steady * case.scene.dt_s, z[steady], 1)[0]))
+    why = f'{uav} goes up or down with {rate:.2f} m/s, asked {number.text()}'
+    near = number.off(rate) <= 0.1 * number.value
+    return replace(acted, judged=all_of([acted.judged, graded(number.counts(rate), near, why)]))
 
 
 def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> Acted:

@@ -32,6 +32,11 @@ def wind(case: Case, field: str, value: object) -> Judged:
     if field == 'wind_mps' and isinstance(value, int | float):
         slack = limits.tolerance((STILL_MPS, limits.REALISED_SHARE), float(value))
         return decide(abs(speed - value) <= slack, f'mean wind {speed:.2f} m/s')
+    if field == 'gust_mps' and isinstance(value, int | float):
+        gust = case.scene.world.gust_mps
+        most = speed + gust if gust > 0.0 else 0.0
+        slack = limits.tolerance((STILL_MPS, limits.REALISED_SHARE), float(value))
+        return decide(abs(most - value) <= slack, f'gusts of {most:.2f} m/s')
     if speed < STILL_MPS:
         return does_not('no wind is recorded')
     origin = float(np.degrees(np.arctan2(-east, -north)) % 360.0)

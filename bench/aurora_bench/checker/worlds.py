@@ -46,7 +46,7 @@ def world(case: Case, requirement: Requirement) -> Judged:
             return decide(ok, f'recorded for {end:.2f} s, asked {asked.text()} s')
         case 'traffic_density':
             return _traffic(case, str(value))
-        case 'wind_mps' | 'wind_from_deg' | 'wind' as field:
+        case 'wind_mps' | 'gust_mps' | 'wind_from_deg' | 'wind' as field:
             return wind(case, field, value)
         case other:
             return cannot_tell(f'field {other!r} is not known')

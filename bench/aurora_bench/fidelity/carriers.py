@@ -58,6 +58,7 @@ class BehaviorFact:
     kind: BehaviorKind
     target: str | None = None
     speed_mps: Parameter | None = None
+    headway_s: Parameter | None = None
     side: str | None = None
 
 
@@ -100,6 +101,7 @@ def behavior_facts(spec: ScenarioSpec) -> Iterator[BehaviorFact]:
                 kind=b.kind,
                 target=b.target,
                 speed_mps=b.speed_mps,
+                headway_s=b.headway_s,
                 side=b.side,
             )
         for p in agent.placements:

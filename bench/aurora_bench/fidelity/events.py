@@ -138,7 +138,7 @@ def action_fields(
             fields[key] = size_counts(value, other, rule, key)
         elif isinstance(value, float):
             fields[key] = rule.counts(key, value, other)
-        elif name in ('mode', 'pattern', 'side'):
+        elif name in ('mode', 'pattern', 'side', 'text'):
             fields[key] = other == value
         elif name != 'do':
             fields[key] = isinstance(value, str) and subject.binding.means(value, other)

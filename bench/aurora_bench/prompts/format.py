@@ -43,7 +43,8 @@ QuantityName = Literal[
     'distance', 'horizontal_distance', 'separation', 'altitude', 'speed', 'tracked_fraction',
     'visible_time', 'visible_fraction', 'delivery_latency', 'delivered', 'delivery_ratio',
     'event_time', 'hover_drift', 'waypoints_visited', 'mission_completed', 'landed',
-    'clearance', 'battery', 'wind',
+    'clearance', 'battery', 'wind', 'deceleration',
+    'time_headway', 'time_to_collision', 'vertical_speed',
 ]  # fmt: skip
 
 
@@ -68,7 +69,7 @@ class WorldRequirement(_Requirement):
     kind: Literal['world']
     field: Literal[
         'weather', 'time_of_day', 'map', 'traffic_density', 'duration_s', 'wind_mps',
-        'wind_from_deg', 'wind',
+        'gust_mps', 'wind_from_deg', 'wind',
     ]  # fmt: skip
     value: str | FiniteFloat
 
@@ -123,6 +124,7 @@ class BehaviorRequirement(_Requirement):
     behavior: BehaviorKind
     target: Ref | None = None
     speed_mps: FiniteFloat | None = None
+    headway_s: FiniteFloat | None = None  # of who follows or tailgates
     side: Literal['left', 'right'] | None = None  # of the lane that change_lane goes to
 
 
@@ -187,11 +189,12 @@ class Trigger(Document):
     on: Literal[
         'distance_below', 'distance_above', 'visible', 'occluded', 'time', 'altitude_reached',
         'arrives', 'message_received', 'speed_below', 'speed_above', 'event_done', 'mission_done',
-        'battery_below',
+        'battery_below', 'headway_below', 'ttc_below',
     ]  # fmt: skip
     a: Ref | None = None
     b: Ref | None = None
     value_m: FiniteFloat | None = None
+    value_s: FiniteFloat | None = None
     observer: Ref | None = None
     target: Ref | None = None
     at_s: FiniteFloat | None = None
@@ -209,6 +212,8 @@ class Trigger(Document):
 FIELDS_OF_TRIGGER: dict[str, frozenset[str]] = {
     'distance_below': frozenset({'a', 'b', 'value_m'}),
     'distance_above': frozenset({'a', 'b', 'value_m'}),
+    'headway_below': frozenset({'a', 'b', 'value_s'}),
+    'ttc_below': frozenset({'a', 'b', 'value_s'}),
     'visible': frozenset({'observer', 'target'}),
     'occluded': frozenset({'observer', 'target'}),
     'time': frozenset({'at_s'}),
@@ -232,8 +237,11 @@ class Action(Document):
     ]  # fmt: skip
     sender: Ref | None = None
     receiver: Ref | None = None
+    text: Annotated[str, StringConstraints(min_length=1)] | None = None
     agent: Ref | None = None
     value_mps: FiniteFloat | None = None
+    deceleration_mps2: FiniteFloat | None = None
+    vertical_mps: FiniteFloat | None = None  # of ascend, up or down
     uav: Ref | None = None
     to: Ref | None = None
     mode: MissionMode | None = None
@@ -264,10 +272,12 @@ MISSION_FIELDS = frozenset(MissionRequirement.model_fields) - {
 def fields_of_action(do: str) -> frozenset[str]:
     """Return the fields that an action of this kind may have."""
     if do == 'send_message':
-        return frozenset({'sender', 'receiver'})
+        return frozenset({'sender', 'receiver', 'text'})
     if do == 'change_mission':
         return MISSION_FIELDS | {'uav'}
-    if do in ('land', 'ascend'):
+    if do == 'ascend':
+        return frozenset({'uav', 'altitude_m', 'vertical_mps'})
+    if do == 'land':
         return frozenset({'uav', 'altitude_m'})
     if do == 'return_home':
         return frozenset({'uav'})
@@ -275,6 +285,8 @@ def fields_of_action(do: str) -> frozenset[str]:
         return frozenset({'uav', 'to'})
     if do == 'change_lane':
         return frozenset({'agent', 'value_mps', 'side'})
+    if do in ('brake', 'stop', 'slow'):
+        return frozenset({'agent', 'value_mps', 'deceleration_mps2'})
     return frozenset({'agent', 'value_mps'})
 
 

@@ -18,7 +18,7 @@ from aurora_bench.prompts.format import (
 from aurora_bench.prompts.numbers import field_of, numbers_at
 from aurora_core.spec.vocabulary import MissionMode, TimeOfDay, TrafficDensity, Weather
 
-_NUMBERS_OF_WORLD = frozenset({'duration_s', 'wind_mps', 'wind_from_deg'})
+_NUMBERS_OF_WORLD = frozenset({'duration_s', 'wind_mps', 'gust_mps', 'wind_from_deg'})
 _WORDS: dict[str, frozenset[str]] = {
     'wind': frozenset({'crosswind', 'headwind', 'tailwind'}),
     'weather': frozenset(Weather),

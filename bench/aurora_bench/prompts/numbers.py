@@ -164,10 +164,14 @@ def _dimension(path: str, requirement: Requirement | None) -> Dimension:
         return {
             'speed': Dimension.SPEED,
             'wind': Dimension.SPEED,
+            'vertical_speed': Dimension.SPEED,
+            'deceleration': Dimension.ACCELERATION,
             'battery': Dimension.SHARE,
             'visible_time': Dimension.TIME,
             'delivery_latency': Dimension.TIME,
             'event_time': Dimension.TIME,
+            'time_headway': Dimension.TIME,
+            'time_to_collision': Dimension.TIME,
             'tracked_fraction': Dimension.SHARE,
             'visible_fraction': Dimension.SHARE,
             'delivery_ratio': Dimension.SHARE,
@@ -178,6 +182,7 @@ def _dimension(path: str, requirement: Requirement | None) -> Dimension:
 
 def _by_ending(field: str) -> Dimension:
     for ending, dimension in (
+        ('_mps2', Dimension.ACCELERATION),
         ('_mps', Dimension.SPEED),
         ('_deg', Dimension.ANGLE),
         ('_hz', Dimension.RATE),

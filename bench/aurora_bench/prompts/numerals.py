@@ -20,6 +20,7 @@ class Dimension(StrEnum):
     LENGTH = 'm'
     TIME = 's'
     SPEED = 'm/s'
+    ACCELERATION = 'm/s^2'
     ANGLE = 'deg'
     SHARE = 'share'
     RATE = 'Hz'
@@ -48,6 +49,11 @@ class StatedNumber(Document):
 # (international foot and mile, international knot).
 _UNITS: tuple[tuple[str, Dimension, float], ...] = (
     (r'km/h|kmh|kmph|kph|kilomet(?:re|er)s? (?:per|an) hour', Dimension.SPEED, 1.0 / 3.6),
+    (
+        r'm/s(?:\^2|²|2)|met(?:re|er)s? per second squared',
+        Dimension.ACCELERATION,
+        1.0,
+    ),
     (r'm/s|mps|met(?:re|er)s? (?:per|each|a) second', Dimension.SPEED, 1.0),
     (r'mph|miles? (?:per|an) hour', Dimension.SPEED, 0.44704),
     (r'knots?|kn|kts?', Dimension.SPEED, 1852.0 / 3600.0),

@@ -141,7 +141,7 @@ def behavior(r: BehaviorRequirement, names: Names, numbers: Numbers) -> Doc:
     if numbers.are_judged and several and r.behavior in _TOWARDS_ONE:
         raise NotExpressibleError(f'{r.behavior} of several')
     side = {} if r.side is None else {'side': r.side}
-    stated = numbers.of(r, ('speed_mps',))
+    stated = numbers.of(r, ('speed_mps', 'headway_s'))
     return {'kind': r.behavior, 'target': names.one(r.target), **stated, **side}
 
 
@@ -247,11 +247,13 @@ def event(r: EventRequirement, names: Names, numbers: Numbers) -> Doc:
 
 
 def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
-    given = numbers.of(t, ('value_m', 'value_mps', 'at_s', 'after_s'), 'trigger.')
+    given = numbers.of(t, ('value_m', 'value_mps', 'value_s', 'at_s', 'after_s'), 'trigger.')
     found: Doc = {'on': t.on}
     if t.on in ('distance_below', 'distance_above'):
         found |= {'a': names.body(t.a), 'b': names.one(t.b) or names.agent(None)}
         found['value_m'] = default('value_m')
+    elif t.on in ('headway_below', 'ttc_below'):
+        found |= {'a': names.body(t.a), 'b': names.body(t.b)}
     elif t.on in ('visible', 'occluded'):
         # Nobody named: the UAV that looks down.
         observer = names.uav(None) if t.observer is None else names.body(t.observer)
@@ -282,15 +284,16 @@ def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
 def _action(a: Action, event_id: str, names: Names, numbers: Numbers) -> Doc:
     if a.do == 'send_message':
         sender = names.body(a.sender) if a.sender is not None else names.uav(None)
-        return {'do': a.do, 'sender': sender, 'receiver': names.body(a.receiver)}
+        text = {} if a.text is None else {'text': a.text}
+        return {'do': a.do, 'sender': sender, 'receiver': names.body(a.receiver), **text}
     if a.do in ('land', 'return_home', 'ascend', 'change_mission'):
         found: Doc = {'do': a.do, 'uav': names.uav(a.uav)}
         if a.do == 'change_mission':
             return found | {'mission': f'{event_id}_mission'}
-        given = numbers.of(a, ('altitude_m',), 'action.')
+        given = numbers.of(a, ('altitude_m', 'vertical_mps'), 'action.')
         return found | ({'altitude_m': default('altitude_m')} if a.do == 'ascend' else {}) | given
     side = {} if a.side is None else {'side': a.side}
-    stated = numbers.of(a, ('value_mps',), 'action.')
+    stated = numbers.of(a, ('value_mps', 'deceleration_mps2'), 'action.')
     return {'do': a.do, 'agent': names.agent(a.agent), **stated, **side}
 
 

@@ -24,6 +24,7 @@ _DIMENSIONS: Mapping[str, tuple[Dimension, ...]] = MappingProxyType(
         'm': (Dimension.LENGTH, Dimension.BARE),
         's': (Dimension.TIME, Dimension.BARE),
         'm/s': (Dimension.SPEED, Dimension.BARE),
+        'm/s^2': (Dimension.ACCELERATION,),
         'deg': (Dimension.ANGLE, Dimension.BARE),
         '1': (Dimension.SHARE, Dimension.BARE),
     }

@@ -54,7 +54,7 @@ from aurora_core.spec.vocabulary import AgentType
 
 _MOST_READINGS = 64
 # Fields of the world that are numbers.
-WORLD_NUMBERS = frozenset({'duration_s', 'wind_mps', 'wind_from_deg'})
+WORLD_NUMBERS = frozenset({'duration_s', 'wind_mps', 'gust_mps', 'wind_from_deg'})
 
 
 def reference_spec(prompt: AnnotatedPrompt, *, judged: bool = False) -> ScenarioSpec:

@@ -10,7 +10,13 @@ from typing import Literal
 
 from aurora_core.grounding.places import has_point
 from aurora_core.judging.build import Inputs, Source, Target, Underivable, condition, number
-from aurora_core.judging.quantities import at_place, free_speed, placement, relation_fraction
+from aurora_core.judging.quantities import (
+    at_place,
+    free_speed,
+    headway,
+    placement,
+    relation_fraction,
+)
 from aurora_core.judging.quantities.crossing import Crossing
 from aurora_core.judging.quantities.distance import ClosedIn
 from aurora_core.judging.quantities.distance_travelled import DistanceTravelled
@@ -383,6 +389,8 @@ def behavior_conditions(
             yield from _there(inputs, agent, behavior, name)
             yield from placement.closing(inputs, agent, behavior, name)
             yield from _stated_speed(inputs, agent, behavior, name)
+            if behavior.headway_s is not None:
+                yield headway.of_follower(inputs, agent, behavior, behavior.headway_s, name)
 
 
 def behavior_id(agent: GroundAgent, index: int) -> str:
@@ -404,9 +412,12 @@ def _as_stated(inputs: Inputs, agent: GroundAgent, behavior: Behavior) -> Inputs
         for p in one.placements
         if p.of in pair and p.distance_m is not None and p.keeps_distance
     ]
+    t = inputs.tolerances
+    if behavior.headway_s is not None:
+        # What is stated in seconds is as far as the fastest one drives in them.
+        stated.append(behavior.headway_s.value * inputs.limits.vehicle_speed_max_mps)
     if not stated:
         return inputs
-    t = inputs.tolerances
     low_m, high_m = t.follow_gap_moving_m
     slack_m = t.placement_vehicle_m.of(max(stated))
     gaps_m = (min(low_m, t.follow_gap_slow_m[0]), max(high_m, max(stated) + slack_m))

@@ -18,7 +18,9 @@ from aurora_core.judging.happening import earliest_s
 from aurora_core.judging.mission import missions_of_uav
 from aurora_core.judging.quantities import (
     altitude,
+    climb_rate,
     completion_delay,
+    deceleration,
     delivered,
     delivery_latency,
     event_delay,
@@ -72,6 +74,8 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             yield from _of_agent(inputs, event, action, source)
         if isinstance(action, UavAction) and action.altitude_m is not None:
             yield altitude.climb(inputs, action, action.altitude_m, event, source)
+            if action.vertical_mps is not None:
+                yield climb_rate.of_event(inputs, event, action, action.vertical_mps, source)
             if event.trigger is not None and not climbs_last(event):
                 yield completion_delay.of_climb(inputs, event, action, action.altitude_m, source)
         if isinstance(action, UavAction) and action.do == 'return_home':
@@ -163,6 +167,8 @@ def _of_agent(
     goal = value if goes_to else None
     if goal is not None or action.do in completion_delay.ENDS:
         yield completion_delay.implied(inputs, event, action, goal, source)
+    if action.deceleration_mps2 is not None:
+        yield deceleration.of_event(inputs, event, action, action.deceleration_mps2, source)
     if action.do == 'start' and event.trigger is not None:
         yield speed_before_event.implied(inputs, event, action, source)
     if action.do == 'change_lane':

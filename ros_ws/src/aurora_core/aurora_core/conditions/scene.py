@@ -52,6 +52,8 @@ def _wind(inputs: Inputs) -> Iterator[Condition]:
     speed, origin = world.wind_mps, world.wind_from_deg
     if speed is not None and speed.provenance is Provenance.EXPLICIT:
         yield wind.speed(inputs, speed)
+    if world.gust_mps is not None and world.gust_mps.provenance is Provenance.EXPLICIT:
+        yield wind.gusts(inputs, world.gust_mps)
     if origin is not None and origin.provenance is Provenance.EXPLICIT:
         yield wind.origin(inputs, origin)
     if world.wind is not None:

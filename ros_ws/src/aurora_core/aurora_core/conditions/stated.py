@@ -24,8 +24,11 @@ from aurora_core.judging.mission import mission_arguments
 from aurora_core.judging.quantities.altitude import Altitude
 from aurora_core.judging.quantities.battery import Battery
 from aurora_core.judging.quantities.clearance import Clearance
+from aurora_core.judging.quantities.climb_rate import VerticalSpeed
+from aurora_core.judging.quantities.deceleration import HardestBraking
 from aurora_core.judging.quantities.distance import Distance
 from aurora_core.judging.quantities.event_time import EventTime
+from aurora_core.judging.quantities.headway import TimeHeadway, TimeToCollision
 from aurora_core.judging.quantities.horizontal_distance import HorizontalDistance
 from aurora_core.judging.quantities.hover_drift import HoverDrift
 from aurora_core.judging.quantities.separation import Separation
@@ -37,6 +40,7 @@ from aurora_core.judging.quantity import OfMission, OfSight, PerSample
 from aurora_core.judging.series import StatedSeries
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.spec.parameter import Bound
+from aurora_core.spec.quantity import OP_WORDS
 from aurora_core.spec.scenario import (
     AgentAction,
     ScenarioSpec,
@@ -55,7 +59,12 @@ _SERIES: dict[str, tuple[type[StatedSeries], int]] = {
     'speed': (Speed, 1),
     'clearance': (Clearance, 2),
     'battery': (Battery, 1),
+    'vertical_speed': (VerticalSpeed, 1),
+    'time_headway': (TimeHeadway, 2),
+    'time_to_collision': (TimeToCollision, 2),
 }
+# Quantities of two on the ground, the one behind first.
+_BEHIND = frozenset({'time_headway', 'time_to_collision'})
 # Of these what is asked holds from take-off to touchdown, not in the missions alone.
 _IN_THE_AIR = frozenset({'clearance', 'battery'})
 # Quantities that are about mission phases, of one mode only where the third entry says so.
@@ -89,6 +98,8 @@ def _all(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
         yield from _each(inputs, stated)
     elif stated.quantity in _PHASES:
         yield from _phases(inputs, stated)
+    elif stated.quantity == 'deceleration':
+        yield from _braking(inputs, stated)
     elif stated.quantity == 'event_time':
         yield _event_time(inputs, stated)
     elif stated.quantity in LINK_QUANTITIES:
@@ -114,7 +125,10 @@ def _bodies(inputs: Inputs, stated: StatedCondition, count: int) -> tuple[str, .
     if len(set(of)) != len(of) or (len(of) != count and not group):
         raise _unknown(stated)
     known = {a.id for a in inputs.spec.agents} | {u.id for u in inputs.spec.uavs}
-    if stated.quantity in _IN_THE_AIR and of[0] not in {u.id for u in inputs.spec.uavs}:
+    flown = stated.quantity in _IN_THE_AIR or stated.quantity == 'vertical_speed'
+    if flown and of[0] not in {u.id for u in inputs.spec.uavs}:
+        raise _unknown(stated)
+    if stated.quantity in _BEHIND and not {*of} <= {a.id for a in inputs.spec.agents}:
         raise _unknown(stated)
     for name in of:
         if name not in known and not (is_place(name) and stated.quantity in _OF_PLACES):
@@ -184,6 +198,8 @@ def _series(inputs: Inputs, stated: StatedCondition, suffix: str = '') -> Condit
         return _share(inputs, stated, of, target, when, suffix)
     if _is_floor(inputs, stated):
         return _kept_speed(inputs, stated, of, target, suffix)
+    if stated.quantity == 'time_headway' and _is_upper(stated):
+        return _kept_headway(inputs, stated, of, target, suffix)
     # A deadline counts from scenario start, not from the phase.
     when = _When(window=Window.RUN)
     if stated.by_s is None:
@@ -202,12 +218,56 @@ def _series(inputs: Inputs, stated: StatedCondition, suffix: str = '') -> Condit
     )
 
 
+def _braking(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
+    """Yield how hard each of some bodies on the ground brakes at its hardest."""
+    only(stated)
+    drivers = {agent.id for agent in inputs.spec.agents}
+    for name in _members(inputs, stated.of):
+        if name not in drivers:
+            raise _unknown(stated)
+        yield condition(
+            id=f'{stated.id}.holds' + (f'.{name}' if (name,) != stated.of else ''),
+            sentence=f'{name} brakes with {OP_WORDS[stated.op]} {number(stated.value.value)} '
+            'm/s^2 at its hardest',
+            of=(name,),
+            target=target_of(inputs.tolerances, stated),
+            arguments=HardestBraking(**inputs.common),
+            source=source_of(stated),
+            every_sample=False,
+        )
+
+
 def _is_floor(inputs: Inputs, stated: StatedCondition) -> bool:
     """Whether somebody on the ground is never to be slower: all stand at first."""
     grounded = {agent.id for agent in inputs.spec.agents}
     bounded = stated.hold_s is not None or stated.by_s is not None
     floor = stated.quantity == 'speed' and stated.op in ('>', '>=') and stated.value.value > 0.0
     return floor and not bounded and bool(grounded & set(stated.of))
+
+
+def _is_upper(stated: StatedCondition) -> bool:
+    """Whether somebody is never to be farther behind: nobody is near at a start."""
+    return stated.op in ('<', '<=', '==') and stated.hold_s is None and stated.by_s is None
+
+
+def _kept_headway(
+    inputs: Inputs, stated: StatedCondition, of: tuple[str, ...], target: Target, suffix: str
+) -> Condition:
+    """Return that somebody on the move stays as close behind, once it has been."""
+    first = PerSample(
+        bound=_BOUNDS.get(stated.op, Bound.EXACTLY),
+        wanted=stated.value.value,
+        tolerance=target.tolerance or 0.0,
+        strict=stated.op == '<',
+    )
+    return condition(
+        id=f'{stated.id}.holds{suffix}',
+        sentence=f'{sentence_of(stated)} while it moves, from when it is first so',
+        of=of,
+        target=target,
+        arguments=TimeHeadway(**inputs.common, moving=True, first=first),
+        source=source_of(stated),
+    )
 
 
 def _kept_speed(

@@ -74,8 +74,13 @@ def target_of(tolerances: Tolerances, stated: StatedCondition) -> Target:
     kind = {
         Unit.METRE: tolerances.placement_vehicle_m,
         Unit.METRE_PER_SECOND: tolerances.route_speed_mps,
+        Unit.METRE_PER_SECOND_SQUARED: tolerances.deceleration_mps2,
         Unit.SECOND: tolerances.duration_s,
     }.get(unit)
+    if stated.quantity == 'vertical_speed':
+        kind = tolerances.vertical_mps
+    if stated.quantity == 'time_headway':
+        kind = tolerances.headway_s
     if stated.quantity == 'altitude':
         kind = tolerances.altitude_m
     tolerance = None

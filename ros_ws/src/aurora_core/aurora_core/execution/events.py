@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence, Set
 
 from aurora_core.comm.link import MessageLink, whole_ticks
+from aurora_core.execution.braking import Braking
 from aurora_core.execution.event_state import EventState, has_crossed, shows_after
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
@@ -20,18 +21,21 @@ from aurora_core.quantities.actions import (
     CLIMBED_M,
     FROM_MOTION,
     ActionRules,
+    climbed_mps,
     commanded_mps,
     is_complete,
     rest_s,
     takes_time,
 )
-from aurora_core.spec.events import actor_of, reports_own_altitude
+from aurora_core.quantities.headway import MEASURES, PairWatch
+from aurora_core.spec.events import BRAKING, actor_of, reports_own_altitude
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import (
     AgentAction,
     Event,
     EventDoneTrigger,
+    HeadwayTrigger,
     ScenarioSpec,
     SendMessage,
     UavAction,
@@ -42,9 +46,6 @@ from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.records import ScenarioEventKind
 from aurora_core.trace.roster import Roster
-
-# Deceleration of a commanded braking (m/s^2): above the 4 m/s^2 that "brake" asks for.
-BRAKING_MPS2 = 6.0
 
 Note = Callable[[int, ScenarioEventKind, str, str], None]
 
@@ -77,6 +78,7 @@ class EventRunner:
         held: Rows of the agents that may not set off yet.
         stopping: Rows of the agents that stop by themselves, at their place.
         ways: Who has to drive before anybody stops.
+        braking: How hard drivers brake.
 
     Attributes:
         sped_up: Rows of agents that drive as fast as an event has told them.
@@ -98,6 +100,7 @@ class EventRunner:
         held: Set[int],
         stopping: frozenset[int],
         ways: Ways,
+        braking: Braking,
     ) -> None:
         self._roster = roster
         self._rules = rules
@@ -105,6 +108,7 @@ class EventRunner:
         self._set_off = set_off
         self._stopping = stopping
         self._ways = ways
+        self._braking = braking
         self._drive = drive
         self._held = held
         self._spec = spec
@@ -131,6 +135,11 @@ class EventRunner:
         self._over_from: dict[str, int] = {}
         self._touchdown_m = battery.touchdown_m
         self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
+        self._watches = {
+            e.id: PairWatch(roster, MEASURES[t.on], t.a, t.b)
+            for e in events
+            if isinstance(t := e.trigger, HeadwayTrigger)
+        }
         self._progress.rests_s = {e.id: rest_s(spec.events, e, rules) for e in events}
         self._messages = 0
 
@@ -188,6 +197,8 @@ class EventRunner:
             if seen.airborne(machine.plan.id, self._touchdown_m):
                 flown = self._progress.airborne_ticks
                 flown[machine.plan.id] = flown.get(machine.plan.id, 0) + 1
+        for event_id, watch in self._watches.items():
+            self._progress.pairs[event_id] = seen.pair_s(watch)
         commands = [self._drive(row) for row in self._yielding.passed(seen)]
         for state in self._states:
             if state.done:
@@ -207,7 +218,8 @@ class EventRunner:
             due = due and self._can_begin(event, seen) and self._has_stood(event, tick, dt_s)
             if due and self._allowed(event, seen, machines):
                 commands += self._act(tick, event, seen, machines)
-                note(tick, ScenarioEventKind.ACTION, event.id, '')
+                said = event.action.text if isinstance(event.action, SendMessage) else None
+                note(tick, ScenarioEventKind.ACTION, event.id, said or '')
                 self._begun(state, tick, seen, machines)
         return commands
 
@@ -462,9 +474,8 @@ class EventRunner:
             self.slowed_mps[row] = goal_mps
             if row in self._held and goal_mps > 0.0:
                 return []  # who may not set off yet stands
-        if action.do == 'brake':
-            harder = GroundCommandKind.SET_DECELERATION
-            commands.insert(0, GroundCommand(agent=row, kind=harder, value=BRAKING_MPS2))
+        if action.do in BRAKING:
+            commands = [*self._braking.commands(row, action), *commands]
         return commands
 
 
@@ -482,4 +493,5 @@ def _order(machine: MissionMachine, action: UavAction) -> None:
     elif action.mission is not None:
         machine.change_to(action.mission)
     elif action.altitude_m is not None:
-        machine.climb_to(action.altitude_m.value)
+        asked = action.vertical_mps
+        machine.climb_to(action.altitude_m.value, None if asked is None else climbed_mps(asked))

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.mission.machine import TargetMotion
 from aurora_core.quantities import instant
+from aurora_core.quantities.headway import PairWatch
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.trace.layout import GroundColumn, UavColumn
@@ -52,6 +53,10 @@ class Observation:
         """Return the state (GROUND_WIDTH,) of the agent of a row."""
         state: FloatArray = self._ground[row]
         return state
+
+    def pair_s(self, watch: PairWatch) -> float:
+        """Return the headway, or time to collision, that somebody watches (s)."""
+        return watch.step(self._ground)
 
     def ahead_m(self, row: int, other: str) -> float:
         """Return how far another agent is ahead of that of a row, bumper to bumper in metres."""

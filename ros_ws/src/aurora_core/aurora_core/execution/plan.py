@@ -32,7 +32,7 @@ from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.triggers import as_realised
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
-from aurora_core.quantities.actions import action_rules
+from aurora_core.quantities.actions import action_rules, climbed_mps
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.flight_order import (
     awaits_climbs,
@@ -44,6 +44,8 @@ from aurora_core.spec.flight_order import (
     patrols_until_told,
     returns_home,
 )
+from aurora_core.spec.parameter import Bound
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Event, Link, ScenarioSpec, SendMessage
 from aurora_core.spec.vocabulary import Place
 from aurora_core.trace.roster import Roster, RosterEntry
@@ -184,7 +186,7 @@ def build_stepper(
             roster=roster,
             agents=grounded.agents,
             machines=tuple(
-                MissionMachine(plan, _flown_by(plan, flight), dt_s)
+                MissionMachine(plan, _flown_by(spec, plan, flight), dt_s)
                 for plan in plans_with_events(spec, grounded.uavs, undone_events(spec, grounded))
             ),
             links=tuple(_link(link, limits, dt_s, seed, acting) for link in spec.links),
@@ -198,6 +200,7 @@ def build_stepper(
             ),
             action_rules=action_rules(tolerances),
             driving=settings.run.driving,
+            deceleration=tolerances.deceleration_mps2,
             horizon_ticks=round(schedule.horizon_s / dt_s),
             stated_horizon=schedule.stated_horizon,
             earliest_end_ticks=round(_earliest_end_s(spec, grounded, schedule, limits) / dt_s),
@@ -414,8 +417,18 @@ def _air_load(grounded: GroundedScenario, map_model: MapModel, dt_s: float, seed
     )
 
 
-def _flown_by(plan: UavPlan, flight: FlightSettings) -> FlightSettings:
+def _flown_by(spec: ScenarioSpec, plan: UavPlan, flight: FlightSettings) -> FlightSettings:
     """Return the limits of the reference motion of one UAV."""
+    most = [
+        climbed_mps(c.value.model_copy(update={'bound': Bound.AT_MOST}))
+        for c in spec.conditions
+        if c.quantity == QuantityName.VERTICAL_SPEED and plan.id in c.of and c.op in ('<', '<=')
+    ]
+    flight = replace(
+        flight,
+        climb_mps=min([flight.climb_mps, *most]),
+        descent_mps=min([flight.descent_mps, *most]),
+    )
     if plan.speed_max_mps is None:
         return flight
     return replace(flight, speed_max_mps=plan.speed_max_mps)

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.comm.link import MessageLink, Path
+from aurora_core.execution.braking import Braking
 from aurora_core.execution.detours import Detours
 from aurora_core.execution.events import EventRunner
 from aurora_core.execution.follower import Follower
@@ -30,6 +31,7 @@ from aurora_core.execution.triggers import BatteryRule
 from aurora_core.execution.ways import Destinations, Ways
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.knowledge.limits import Tolerance
 from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
@@ -76,6 +78,7 @@ class ExecutionSetup:
         battery: What the level of a UAV's battery is counted by.
         action_rules: When the actions of ground agents are complete.
         driving: How drivers are led.
+        deceleration: Tolerance on a stated one.
         landing_clearance_m: The way to a landing spot keeps this clearance.
         earliest_end_ticks: Runs with an inferred horizon do not end before.
         settle_ticks: Time between the last thing done and the end.
@@ -94,6 +97,7 @@ class ExecutionSetup:
     battery: BatteryRule
     action_rules: ActionRules
     driving: DrivingStyle
+    deceleration: Tolerance
     horizon_ticks: int
     stated_horizon: bool
     earliest_end_ticks: int
@@ -119,6 +123,7 @@ class ScenarioExecutor:
         self._seen: dict[tuple[str, str], bool] = {}
         self._ways = Ways(setup.spec, setup.drive_m)
         self._destinations = Destinations(setup.spec, setup.arrival_m)
+        self._braking = Braking(setup.spec, setup.agents, setup.deceleration)
         self._runner = self._run_events(EventRunner)
         self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
         most_mps = setup.geometry.world.limits.uav_speed_max_mps
@@ -204,6 +209,7 @@ class ScenarioExecutor:
             self._held,
             stopping,
             self._ways,
+            self._braking,
         )
 
     def _lanes(self) -> LaneChanger:
@@ -213,7 +219,7 @@ class ScenarioExecutor:
     def _initial_commands(self) -> list[GroundCommand]:
         gently = GroundCommandKind.SET_DECELERATION
         forbidden = self._setup.spec.prohibitions
-        commands = []
+        commands = self._braking.at_start()
         for index, agent in enumerate(self._setup.agents):
             if any(keeps_on(no, agent.id) for no in forbidden):
                 commands.append(GroundCommand(agent=index, kind=gently, value=_GENTLY_MPS2))

@@ -19,6 +19,7 @@ from aurora_core.spec.scenario import (
     DistanceTrigger,
     Event,
     EventDoneTrigger,
+    HeadwayTrigger,
     MessageTrigger,
     MissionDoneTrigger,
     SpeedTrigger,
@@ -51,6 +52,7 @@ class Progress:
     received: set[tuple[str, str]] = field(default_factory=set)  # (receiver, sender)
     missions_done: set[str] = field(default_factory=set)  # UAV ids
     was_false: set[str] = field(default_factory=set)  # event ids
+    pairs: dict[str, float] = field(default_factory=dict)  # event -> headway, ttc at the tick (s)
     rests_s: dict[str, float] = field(default_factory=dict)  # by event, after a stop
     looking: set[str] = field(default_factory=set)  # UAVs between their ascent and way home
 
@@ -79,6 +81,8 @@ def holds(
     if isinstance(trigger, BatteryTrigger):
         flown = float(progress.airborne_ticks.get(trigger.uav, 0))
         return battery(flown, dt_s, progress.endurance_s) < trigger.value.value
+    if isinstance(trigger, HeadwayTrigger):
+        return progress.pairs.get(event.id, inf) <= trigger.value_s.value
     now = _state_holds(trigger, observation, progress)
     # Only who looks can lose sight.
     looks = not isinstance(trigger, VisibilityTrigger) or _looks(trigger, observation, progress)

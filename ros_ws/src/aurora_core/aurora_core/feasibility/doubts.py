@@ -211,6 +211,8 @@ def _wind_mps(spec: ScenarioSpec, limits: Limits) -> tuple[float, float]:
     mean_mps = limits.wind_mean_mps[world.weather.value]
     if world.wind_mps is not None:
         mean_mps = least(world.wind_mps, 0.0, 0.0)
+    if world.gust_mps is not None:
+        return mean_mps, max(0.0, world.gust_mps.value - mean_mps)
     return mean_mps, limits.wind_gust_mps[world.weather.value]
 
 

@@ -23,13 +23,16 @@ from aurora_core.spec.scenario import (
     SpeedTrigger,
     UavAction,
 )
+from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import AgentType
 
 # What a limit is on, in words; the others are on speeds.
 _WHAT = {
     'agents_max': 'A number',
     'duration_s': 'A scenario',
+    'emergency_decel_mps2': 'A deceleration',
     'link_loss': 'A loss',
+    'gust_max_mps': 'A gust',
     'uav_altitude_m': 'An altitude',
     'uav_endurance_s': 'A phase',
     'uav_standoff_max_m': 'A standoff',
@@ -147,6 +150,24 @@ def _rules(
                 low=limits.uav_altitude_min_m,
                 high=limits.uav_altitude_max_m,
             )
+        if isinstance(action, UavAction) and action.vertical_mps is not None:
+            name, most_mps = _climb_limit(spec, action, limits)
+            yield _Rule(
+                path=f'events/{event.id}/action/vertical_mps',
+                parameter=action.vertical_mps,
+                reason='speed_limit',
+                limit_name=name,
+                low=0.0,
+                high=most_mps,
+            )
+        if isinstance(action, AgentAction) and action.deceleration_mps2 is not None:
+            yield from _braking(
+                spec,
+                action.agent,
+                types,
+                f'events/{event.id}/action/deceleration_mps2',
+                action.deceleration_mps2,
+            )
         if isinstance(action, AgentAction) and action.value_mps is not None:
             name, top = speeds[action.agent]
             yield _Rule(
@@ -157,6 +178,10 @@ def _rules(
                 low=0.0,
                 high=top,
             )
+    for condition in spec.conditions:
+        if condition.quantity == QuantityName.DECELERATION and condition.op in (*AT_LEAST, '=='):
+            path = f'conditions/{condition.id}/value'
+            yield from _braking(spec, condition.of[0], types, path, condition.value)
     yield from _asked_of_bodies(spec, limits, speeds)
     for link in spec.links:
         yield _Rule(
@@ -177,6 +202,15 @@ def _rules(
             low=0.0,
             high=limits.wind_max_mps,
         )
+    if spec.world.gust_mps is not None:
+        yield _Rule(
+            path='world/gust_mps',
+            parameter=spec.world.gust_mps,
+            reason='speed_limit',
+            limit_name='gust_max_mps',
+            low=0.0,
+            high=limits.gust_max_mps,
+        )
     if spec.world.duration_s is not None:
         yield _Rule(
             path='world/duration_s',
@@ -185,6 +219,37 @@ def _rules(
             limit_name='duration_s',
             low=limits.duration_min_s,
             high=limits.duration_max_s,
+        )
+
+
+def _climb_limit(spec: ScenarioSpec, action: UavAction, limits: Limits) -> tuple[str, float]:
+    """Return the limit on a climb; on a descent where the UAV is surely higher before."""
+    own = [m.altitude_m for m in spec.missions if m.uav == action.uav]
+    to = action.altitude_m
+    down = to is not None and is_stated(to) and bool(own)
+    if down and to is not None and all(is_stated(a) and a.value > to.value for a in own):
+        return 'uav_descent_max_mps', limits.uav_descent_max_mps
+    return 'uav_climb_max_mps', limits.uav_climb_max_mps
+
+
+def _braking(
+    spec: ScenarioSpec,
+    name: str,
+    types: Mapping[str, AgentTypeRecord],
+    path: str,
+    asked: Parameter,
+) -> Iterator[_Rule]:
+    """Yield that nobody brakes harder than its type can in an emergency."""
+    agent = next((a for a in spec.agents if name in (a.id, a.group)), None)
+    record = None if agent is None else types.get(agent.type.value)
+    if agent is not None and record is not None:
+        yield _Rule(
+            path=path,
+            parameter=asked,
+            reason='speed_limit',
+            limit_name=f'agent_types/{agent.type.value}/emergency_decel_mps2',
+            low=0.0,
+            high=record.emergency_decel_mps2,
         )
 
 
@@ -281,6 +346,7 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
     excluded = rule.high_is_excluded and limit == rule.high
     word = 'below' if excluded else ('at most' if limit == rule.high else 'at least')
     unit = '' if parameter.unit is Unit.ONE else f' {parameter.unit.value}'
+    what = _WHAT.get(rule.limit_name.rpartition('/')[2], 'A speed')
     yield Certificate(
         kind='limit_exceeded',
         reason=rule.reason,
@@ -292,7 +358,7 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
         span=parameter.span,
         rule=Rule.LIMIT,
         sentence=(
-            f'{_WHAT.get(rule.limit_name, "A speed")} of {value:g}{unit} is asked for '
+            f'{what} of {value:g}{unit} is asked for '
             f'({rule.path}); it has to be {word} {limit:g}{unit} ({rule.limit_name}).'
         ),
     )

@@ -20,6 +20,7 @@ _REASONS = {
     Unit.METRE: 'spatial_contradiction',
     Unit.SECOND: 'temporal_contradiction',
     Unit.METRE_PER_SECOND: 'speed_limit',
+    Unit.METRE_PER_SECOND_SQUARED: 'speed_limit',
     Unit.ONE: 'comm_range',
 }
 # Pure numbers that count something, by the last part of their path.

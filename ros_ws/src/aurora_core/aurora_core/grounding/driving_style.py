@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 
+from aurora_core.grounding.headways import headway_style, stated_headway
 from aurora_core.grounding.kept_gaps import KeptGap, kept_gaps, led
 from aurora_core.grounding.lane_changers import changes_lane
 from aurora_core.grounding.pace import (
@@ -91,7 +92,7 @@ class ConvoyStyles:
         agent = seat.agent
         is_front = seat.arc_m >= self._front_m or self._parting
         on_mps = self._limit_mps if agent.id in self._tracked else None
-        style = self._style(agent, on_mps, is_front=is_front)
+        style = self._style(agent, on_mps, is_front=is_front) | self._headway_style(agent)
         style |= self._passing_style(agent)
         style |= self._paced_style(seat, style['speed_factor'])
         return style | self._gentle_style(agent, style)
@@ -185,6 +186,16 @@ class ConvoyStyles:
                     gap.acceleration_mps2, style.get('gentle_mps2', gap.acceleration_mps2)
                 )
         return style
+
+    def _headway_style(self, agent: GroundAgent) -> dict[str, float]:
+        """Return what keeps a stated headway at the pace of whom it is kept behind."""
+        stated = stated_headway(self._spec, agent)
+        ahead = None if stated is None else self._seats.get(stated[0])
+        if stated is None or ahead is None:
+            return {}
+        pace_mps = own_speed_mps(ahead.agent) or self._factor * self._limit_mps
+        types = self._types[agent.type.value], self._types[ahead.agent.type.value]
+        return headway_style(stated[1], *types, pace_mps)
 
     def _pace_mps(self, gap: KeptGap) -> float:
         """Return how fast the line is in which two keep their distance (m/s)."""

@@ -62,7 +62,7 @@ from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
 from aurora_core.grounding.uav_speeds import within_speeds
 from aurora_core.grounding.unplaced import lacked, on_no_street
-from aurora_core.grounding.wind import mean_wind_mps
+from aurora_core.grounding.wind import gust_over_mean_mps, mean_wind_mps
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits, Tolerances, hover_capture_m
@@ -492,7 +492,7 @@ class Grounder:
             time_of_day=spec.world.time_of_day.value,
             wind_mean_east_mps=wind_mps[0],
             wind_mean_north_mps=wind_mps[1],
-            wind_gust_mps=self._limits.wind_gust_mps[weather],
+            wind_gust_mps=gust_over_mean_mps(spec, wind_mps, self._limits, self._tolerances),
             seed=seed,
             basis=self._basis,
             configuration='' if self._basis is None else self._basis.sha256,

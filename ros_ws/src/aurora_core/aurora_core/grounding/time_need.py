@@ -13,6 +13,7 @@ from math import ceil
 from aurora_core.grounding.places import has_point
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import FlightDefaults
+from aurora_core.quantities.actions import climbed_mps
 from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.scenario import (
@@ -110,7 +111,10 @@ def _event_s(spec: ScenarioSpec, event: Event, up_and_down: float) -> float:
     if isinstance(event.trigger, EventDoneTrigger) and event.trigger.after_s is not None:
         need += event.trigger.after_s.value
     if isinstance(event.action, UavAction) and event.action.altitude_m is not None:
-        need += event.action.altitude_m.value * up_and_down
+        asked, per_m = event.action.vertical_mps, up_and_down
+        if asked is not None and asked.value > 0.0:
+            per_m = max(per_m, 1.0 / climbed_mps(asked))
+        need += event.action.altitude_m.value * per_m
     if isinstance(event.action, SendMessage):
         pair = (event.action.sender, event.action.receiver)
         for link in spec.links:

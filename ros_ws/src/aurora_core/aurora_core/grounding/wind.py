@@ -15,6 +15,7 @@ from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.outcomes.grounded import GroundedAgent
 from aurora_core.ports.random_streams import stream
 from aurora_core.quantities.waypoints import longest_leg
+from aurora_core.spec.parameter import Bound
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode, RelativeWind
 
@@ -55,6 +56,19 @@ def mean_wind_mps(
         return offset_at_bearing(speed_mps, float(draws.uniform(0.0, 360.0)))
     x, y = _blows(world.wind, course, draws)
     return speed_mps * x, speed_mps * y
+
+
+def gust_over_mean_mps(
+    spec: ScenarioSpec, mean: Vector, limits: Limits, tolerances: Tolerances
+) -> float:
+    """Return by how much gusts exceed the mean wind: as stated, else as in the weather (m/s)."""
+    asked = spec.world.gust_mps
+    if asked is None:
+        return limits.wind_gust_mps[spec.world.weather.value]
+    most_mps = asked.value
+    if asked.bound is Bound.AT_LEAST:
+        most_mps = asked.inside(tolerances.limit_margin * asked.value)
+    return max(0.0, most_mps - norm2(*mean))
 
 
 def _blows(wind: RelativeWind, course: Vector, draws: np.random.Generator) -> Vector:

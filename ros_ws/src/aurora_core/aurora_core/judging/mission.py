@@ -16,6 +16,7 @@ from aurora_core.knowledge.limits import (
 )
 from aurora_core.outcomes.condition import ClimbArguments, MissionArguments, RestArguments
 from aurora_core.outcomes.schedule import MissionFacts
+from aurora_core.quantities.actions import least_climb_mps
 from aurora_core.spec.flight_order import (
     climbs_last,
     cut_by,
@@ -124,7 +125,11 @@ def _climbs(inputs: Inputs, mission: UavMission, from_m: float) -> Iterator[Clim
             continue
         if action.uav == mission.uav and not climbs_last(event):
             rise_m = action.altitude_m.value - from_m
-            way_s = max(rise_m / climb_mps(inputs), -rise_m / descent_mps(inputs))
+            rates = climb_mps(inputs), descent_mps(inputs)
+            if action.vertical_mps is not None:
+                least = least_climb_mps(action.vertical_mps, inputs.tolerances.vertical_mps)
+                rates = min(rates[0], least), min(rates[1], least)
+            way_s = max(rise_m / rates[0], -rise_m / rates[1])
             within_s = way_s + inputs.tolerances.action_done_s
             yield ClimbArguments(
                 event=event.id, altitude_m=action.altitude_m.value, within_s=within_s

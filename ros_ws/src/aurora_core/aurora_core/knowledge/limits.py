@@ -67,6 +67,7 @@ class Limits(_Table):
     wind_mean_mps: dict[str, NotNegative]  # by weather
     wind_gust_mps: dict[str, NotNegative]  # by weather
     wind_max_mps: NotNegative = omitted(15.0)  # mean of a wind that a request names
+    gust_max_mps: NotNegative = omitted(20.0)  # the same at the height of a gust
     uavs_max: Annotated[int, Field(ge=0)]
     agents_max: Annotated[int, Field(ge=0)]
 
@@ -180,6 +181,11 @@ class Tolerances(_Table):
     moving_speed_mps: NotNegative  # an agent this fast has moved
     onset_mps2: NotNegative  # change of speed with which slowing down or speeding up begins
     action_speed_mps: Tolerance  # on the speed that an action is to end with
+    # on a stated vertical speed
+    vertical_mps: Tolerance = omitted(Tolerance(absolute=0.3, relative=0.1))
+    headway_s: Tolerance = omitted(Tolerance(absolute=0.3, relative=0.15))  # on a stated headway
+    # on a stated deceleration
+    deceleration_mps2: Tolerance = omitted(Tolerance(absolute=0.3, relative=0.1))
     action_done_s: NotNegative  # how much later than physics allows an action may be complete
     slow_share: Share  # share of its speed to which an agent slows down when no speed is stated
     speed_gain_mps: NotNegative  # by how much an agent speeds up when no speed is stated
@@ -210,7 +216,10 @@ def _is_windy(world: World, limits: Limits) -> bool:
     mean_mps = limits.wind_mean_mps[weather]
     if world.wind_mps is not None:
         mean_mps = world.wind_mps.value
-    return mean_mps > 0.0 or limits.wind_gust_mps[weather] > 0.0
+    gust_mps = limits.wind_gust_mps[weather]
+    if world.gust_mps is not None:
+        gust_mps = world.gust_mps.value
+    return mean_mps > 0.0 or gust_mps > 0.0
 
 
 def climb_share_mps(limits: Limits) -> float:

@@ -79,7 +79,7 @@ class MissionMachine:
 
     def __init__(self, plan: UavPlan, settings: FlightSettings, dt_s: float) -> None:
         self.plan = plan
-        self._settings = settings
+        self._settings = self._usual = settings
         self._dt = dt_s
         self.phase = _IDLE
         self.ascended_tick: int | None = None
@@ -107,10 +107,9 @@ class MissionMachine:
     @property
     def mission(self) -> MissionPlan | None:
         """The mission that is flown now, None before and after."""
-        index = self.phase - _MISSION
-        if self.phase < _LANDING and 0 <= index < len(self.plan.missions):
-            return self.plan.missions[index]
-        return None
+        index, count = self.phase - _MISSION, len(self.plan.missions)
+        flies = self.phase < _LANDING and 0 <= index < count
+        return self.plan.missions[index] if flies else None
 
     @property
     def followed(self) -> str | None:
@@ -188,9 +187,7 @@ class MissionMachine:
     def phase_name(self) -> str:
         """The present phase in words: idle, ascent, the mission's id, or landing."""
         mission = self.mission
-        if mission is not None:
-            return mission.id
-        return UavPhase(self.phase).name.lower()
+        return UavPhase(self.phase).name.lower() if mission is None else mission.id
 
     def land_now(self) -> None:
         """End the missions; the landing begins with the next step."""
@@ -205,11 +202,13 @@ class MissionMachine:
         elif self.phase < _LANDING and index > self._index:
             self._begin(_MISSION + index)
 
-    def climb_to(self, altitude_m: float) -> None:
+    def climb_to(self, altitude_m: float, vertical_mps: float | None = None) -> None:
         """Go on at another altitude; after the missions climb before the way to a landing spot.
 
-        The next mission has its own altitude again, unless it keeps the one before.
+        The next mission has its own altitude again, unless it keeps the one before. Without a
+        vertical speed it is as fast as ever.
         """
+        self._settings = self._usual.climbing(vertical_mps)
         if self.phase == _LANDING and not self._descending:
             self._climb = (self._pursuit.x, self._pursuit.y, altitude_m)
             self._landing_spot = None
@@ -301,6 +300,7 @@ class MissionMachine:
             self.capture_tick = self._turning = None
             self.staying = None if mission.rest_mps is None else Staying(mission.rest_mps)
             if not mission.keeps_level and self.phase != _ASCENT:
+                self._settings = self._usual
                 self._level_m = None  # what is asked for during the ascent still counts
             self.way_there = Crossing(mission.over_m)
         self.phase = phase
@@ -356,7 +356,7 @@ class MissionMachine:
         if self.staying is not None:
             x_m, y_m = self.staying.goal(self._pursuit.rest_point(self._settings)[:2])
             return (x_m, y_m, z_m), (0.0, 0.0)
-        if target is None:  # The target is gone: hold where the reference is.
+        if target is None:  # it is gone: hold where the reference is
             return (self._pursuit.x, self._pursuit.y, z_m), (0.0, 0.0)
         velocity = (target.vx_mps, target.vy_mps)
         x_m, y_m = mission.offset_m
@@ -434,9 +434,8 @@ class MissionMachine:
         last = mission.waypoints[-1]
         if not self._route.done:
             return False
-        if self.patrols and (
-            self.stays_up or self._next_phase() != _LANDING
-        ):  # once more, or back again, until its event
+        goes_on = self.stays_up or self._next_phase() != _LANDING
+        if self.patrols and goes_on:  # once more, or back again, until its event
             self._laps += 1
             self._way = self._way if self._way[0] == self._way[-1] else self._way[::-1]
             self._route = RouteReference(self._way, mission.speed_mps)

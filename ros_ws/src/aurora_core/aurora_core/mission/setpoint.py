@@ -9,7 +9,7 @@ reference keeps the realised speed inside the limits and makes arrival times pre
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 from aurora_core.geometry.kernel import norm2, norm3
@@ -35,6 +35,12 @@ class FlightSettings:
     descent_mps: float
     corner_speed_mps: float
     position_gain_hz: float
+
+    def climbing(self, vertical_mps: float | None) -> FlightSettings:
+        """Return the limits of who climbs and descends with a speed; None: these."""
+        if vertical_mps is None:
+            return self
+        return replace(self, climb_mps=vertical_mps, descent_mps=vertical_mps)
 
 
 class PursuitReference:

@@ -41,6 +41,7 @@ def build(scene: Scene) -> ScenarioSpec:
             traffic_density=world.traffic,
             duration_s=world.duration,
             wind_mps=world.wind_speed,
+            gust_mps=world.gust,
             wind_from_deg=world.wind_from,
             wind=world.wind,
             span=spans[0] if spans else None,

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from aurora_core.spec.parameter import Bound
 
 LENGTH, TIME, SPEED, RATIO, ANGLE, COUNT = 'length', 'time', 'speed', 'ratio', 'angle', 'count'
-RATE = 'rate'
+ACCELERATION, RATE = 'acceleration', 'rate'
 UNREADABLE = 'unreadable'
 # Between a number and its unit: `20 consecutive seconds`.
 UNBROKEN = frozenset(
@@ -22,7 +22,8 @@ class Measure:
     """A stated quantity in SI (angles in degrees, ratios 0..1).
 
     Attributes:
-        dimension: length, time, speed, ratio, angle, rate (1/s), count (no unit) or unreadable.
+        dimension: length, time, speed, acceleration, ratio, angle, rate (1/s), count (no unit) or
+            unreadable.
         value: In SI.
         start: First character of the number (qualifiers such as `about` are outside).
         end: One past the last character of the unit.

@@ -152,6 +152,7 @@ class WorldDraft:
     time_of_day_span: Span | None = None
     traffic: TrafficDensity | None = None
     wind_speed: Parameter | None = None
+    gust: Parameter | None = None
     wind_from: Parameter | None = None
     wind: RelativeWind | None = None
     duration: Parameter | None = None

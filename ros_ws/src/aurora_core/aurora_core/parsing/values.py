@@ -8,13 +8,24 @@ from functools import lru_cache
 
 from aurora_core.document import Document
 from aurora_core.parsing.data_files import read_data
-from aurora_core.parsing.measures import ANGLE, COUNT, LENGTH, RATE, RATIO, SPEED, TIME, Measure
+from aurora_core.parsing.measure import (
+    ACCELERATION,
+    ANGLE,
+    COUNT,
+    LENGTH,
+    RATE,
+    RATIO,
+    SPEED,
+    TIME,
+    Measure,
+)
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 
 _DIMENSIONS = {
     Unit.METRE: (LENGTH, COUNT),
     Unit.SECOND: (TIME,),
     Unit.METRE_PER_SECOND: (SPEED,),
+    Unit.METRE_PER_SECOND_SQUARED: (ACCELERATION,),
     Unit.DEGREE: (ANGLE, COUNT),
     Unit.ONE: (RATIO, COUNT, RATE),
 }

@@ -17,9 +17,9 @@ import numpy.typing as npt
 from pydantic import FiniteFloat
 
 from aurora_core.document import Document
-from aurora_core.knowledge.limits import Tolerances
+from aurora_core.knowledge.limits import Tolerance, Tolerances
 from aurora_core.spec.events import AgentAction, Event, EventDoneTrigger
-from aurora_core.spec.parameter import Bound
+from aurora_core.spec.parameter import Bound, Parameter
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
@@ -40,6 +40,8 @@ _NEARLY_MPS = 0.05
 
 # So much more of a change without a number is commanded than asked.
 _INSIDE_SHARE = 0.1
+# Nobody can be told to climb more slowly (m/s).
+_LEAST_CLIMB_MPS = 0.1
 # And this share of the tolerance of a speed where that is a bound.
 _BOUND_SHARE = 0.5
 
@@ -192,6 +194,19 @@ def commanded_mps(action: AgentAction, now_mps: float, rules: ActionRules) -> fl
     if goal_mps is None or action.do not in ('slow', 'accelerate'):
         return goal_mps
     return goal_mps + _INSIDE_SHARE * (goal_mps - now_mps)
+
+
+def climbed_mps(asked: Parameter) -> float:
+    """Return how fast to climb or descend where that is stated: a bound is kept with a reserve."""
+    return max(_LEAST_CLIMB_MPS, asked.inside(_INSIDE_SHARE * asked.value))
+
+
+def least_climb_mps(asked: Parameter, tolerance: Tolerance) -> float:
+    """Return the least that a stated vertical speed leaves: how long a climb may take."""
+    if asked.bound is Bound.AT_LEAST:
+        return asked.value
+    slack = tolerance.of(asked.value, approximate=asked.approximate)
+    return max(_LEAST_CLIMB_MPS, min(climbed_mps(asked), asked.value - slack))
 
 
 def holds_already(action: AgentAction, speed_mps: float, rules: ActionRules) -> bool:

@@ -20,6 +20,7 @@ from aurora_core.geometry.route_follower import RouteFollower
 from aurora_core.quantities.kernels import distance_2d
 from aurora_core.quantities.view import Body, RunView, Series
 from aurora_core.trace.layout import GroundColumn, GroundCommandKind
+from aurora_core.trace.roster import RosterEntry
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
@@ -33,11 +34,13 @@ class AlongRoute:
         lead_m: (T,) progress of the leader minus progress of the follower (centres), metres.
         gap_m: (T,) the same from bumper to bumper.
         offset_m: (T,) distance of the leader from the follower's route.
+        own_offset_m: (T,) distance of the follower from it.
     """
 
     lead_m: FloatArray
     gap_m: FloatArray
     offset_m: FloatArray
+    own_offset_m: FloatArray
 
 
 def along_route(view: RunView, follower: Body, leader: Body) -> AlongRoute:
@@ -46,9 +49,9 @@ def along_route(view: RunView, follower: Body, leader: Body) -> AlongRoute:
     Samples at which one of them is absent hold what its last position gives.
     """
     key = ('along_route', follower.body_id, leader.body_id)
-    lead, offset = view.series(key, _Progress(follower, leader))
+    lead, offset, own_offset = view.series(key, _Progress(follower, leader))
     half = (follower.entry.length_m + leader.entry.length_m) / 2.0
-    return AlongRoute(lead_m=lead, gap_m=lead - half, offset_m=offset)
+    return AlongRoute(lead_m=lead, gap_m=lead - half, offset_m=offset, own_offset_m=own_offset)
 
 
 class _Progress:
@@ -57,17 +60,16 @@ class _Progress:
     def __init__(self, follower: Body, leader: Body) -> None:
         self._follower = follower
         self._leader = leader
-        self._route: Polyline | None = None
-        self._own: RouteFollower | None = None
-        self._other: RouteFollower | None = None
+        self._both = Along()
 
     def __call__(self, part: RunView) -> Series:
         lead = np.zeros(part.ticks)
         offset = np.zeros(part.ticks)
+        own_offset = np.zeros(part.ticks)
         own = part.reference(self._follower.body_id)[:, :2]
         other = part.reference(self._leader.body_id)[:, :2]
         changes = _changes(part, self._follower)
-        if self._route is None:
+        if not self._both.begun:
             changes.insert(0, (0, planned_route(part, self._follower)))
         elif not changes or changes[0][0] > 0:
             changes.insert(0, (0, None))  # goes on
@@ -75,12 +77,34 @@ class _Progress:
         for (start, stop), (_, route) in zip(pairwise(marks), changes, strict=True):
             if stop > start:
                 here = slice(start, stop)
-                lead[here], offset[here] = self._along(route, own[here], other[here])
-        return lead, offset
+                found = self._both.follow(route, own[here], other[here])
+                lead[here], offset[here], own_offset[here] = found
+        return lead, offset, own_offset
 
-    def _along(
+
+class Along:
+    """Lead and offsets of two bodies on the route of one of them, in one call or in many."""
+
+    def __init__(self) -> None:
+        self._route: Polyline | None = None
+        self._own: RouteFollower | None = None
+        self._other: RouteFollower | None = None
+
+    @property
+    def begun(self) -> bool:
+        """Whether there is a route yet."""
+        return self._route is not None
+
+    def follow(
         self, new: Polyline | None, own: FloatArray, other: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return lead of the other one, its offset and one's own at the next samples, metres.
+
+        Args:
+            new: Route from these samples on, None where it goes on.
+            own: (n, 2) positions of whose route it is.
+            other: (n, 2) positions of the other one.
+        """
         if new is not None:
             self._route, self._other = new, None
             self._own = RouteFollower(new, extend=True)
@@ -93,7 +117,8 @@ class _Progress:
             )
             self._other = RouteFollower(self._route, expected, extend=True)
         other_s = self._other.follow(other)
-        return other_s - own_s, _offset(self._route, other, other_s)
+        offset = _offset(self._route, other, other_s)
+        return other_s - own_s, offset, _offset(self._route, own, own_s)
 
 
 def _offset(route: Polyline, xy: FloatArray, s: FloatArray) -> FloatArray:
@@ -121,11 +146,15 @@ def _changes(view: RunView, body: Body) -> list[tuple[int, Polyline | None]]:
 
 def planned_route(view: RunView, body: Body) -> Polyline:
     """Return the path of a body as it was planned before the run."""
+    return route_of(body.entry, view.rows(body)[0])
+
+
+def route_of(entry: RosterEntry, state: FloatArray) -> Polyline:
+    """Return the planned path of an agent; `state` is its first one, (GROUND_WIDTH,)."""
     try:
-        return Polyline(np.array(body.entry.route_xy_m, dtype=np.float64).reshape(-1, 2))
+        return Polyline(np.array(entry.route_xy_m, dtype=np.float64).reshape(-1, 2))
     except MapError:
         # A body that never drives has no path: its heading stands for it.
-        state = view.rows(body)[0]
         x, y = float(state[GroundColumn.X]), float(state[GroundColumn.Y])
         hx, hy = float(state[GroundColumn.HEADING_X]), float(state[GroundColumn.HEADING_Y])
         return Polyline([(x, y), (x + hx, y + hy)])

@@ -29,6 +29,8 @@ from aurora_core.quantities.actions import (
     speed_goal,
     takes_time,
 )
+from aurora_core.quantities.braking import braking_mps2
+from aurora_core.quantities.headway import MEASURES, pair_series
 from aurora_core.quantities.lane_changes import (
     LANE_CHANGE_S,
     change_begins,
@@ -48,6 +50,7 @@ from aurora_core.spec.scenario import (
     DistanceTrigger,
     Event,
     EventDoneTrigger,
+    HeadwayTrigger,
     MessageTrigger,
     MissionDoneTrigger,
     ScenarioSpec,
@@ -62,6 +65,7 @@ from aurora_core.trace.layout import UavCommandColumn, UavPhase
 
 StateTrigger = (
     DistanceTrigger
+    | HeadwayTrigger
     | TimeTrigger
     | AltitudeTrigger
     | VisibilityTrigger
@@ -251,8 +255,7 @@ class EventTimes:
         action, rules = event.action, self.rules.actions
         if rules is None or begins is None or not takes_time(action):
             return begins
-        # A trigger that nobody states: what the action shows is its beginning.
-        first = begins if due is None else due
+        first = begins if due is None else due  # nobody states a trigger: what shows begins it
         body = self.view.body(action.agent)
         if action.do == 'change_lane':
             return change_is_over(self.view, body, first, action.side)
@@ -336,7 +339,9 @@ class EventTimes:
             return first_tick(speed > rules.start_mps, start)
         if action.do in ('brake', 'stop', 'slow', 'yield'):
             loss = motion.deceleration(self.view, body)
-            least = self.rules.brake_mps2 if action.do == 'brake' else self.rules.onset_mps2
+            least = self.rules.onset_mps2
+            if action.do == 'brake':
+                least = braking_mps2(action.deceleration_mps2, self.rules.brake_mps2, least)
             return _onset(loss >= least, start, begins_there=begins_there)
         if action.do in ('start', 'accelerate'):
             gain = -motion.deceleration(self.view, body)
@@ -364,7 +369,9 @@ class EventTimes:
         if rules is None or action.do not in ('brake', 'stop', 'slow'):
             return np.zeros(self.view.ticks, dtype=np.bool_)
         if action.do == 'brake':
-            return motion.deceleration(self.view, body) >= self.rules.brake_mps2
+            asked, usual = action.deceleration_mps2, self.rules.brake_mps2
+            least = braking_mps2(asked, usual, self.rules.onset_mps2)
+            return motion.deceleration(self.view, body) >= least
         if action.do == 'stop':
             return speed < rules.stop_mps
         goal = speed_goal(action, float(speed[begin]), rules)
@@ -432,7 +439,7 @@ class EventTimes:
 
 
 def _onset(mask: BoolArray, start: int, *, begins_there: bool) -> int | None:
-    """Return the first tick from `start` on inside the mask, or where a stretch begins."""
+    """Return the first tick from `start` on in the mask, or where a stretch of it begins."""
     if begins_there:
         mask = mask & ~np.concatenate(([False], mask[:-1]))
     return first_tick(mask, start)
@@ -451,6 +458,9 @@ def trigger_series(
             limit_m = trigger.value_m.value
             mask = apart <= limit_m if near else apart >= limit_m + APART_M
             return mask & view.present(trigger.a) & view.present(trigger.b)
+        case HeadwayTrigger():
+            seconds = pair_series(view, MEASURES[trigger.on], trigger.a, trigger.b)
+            return seconds <= trigger.value_s.value
         case TimeTrigger():
             first = whole_ticks(trigger.at_s.value, view.dt_s)
             return np.arange(view.ticks) >= first
@@ -473,21 +483,18 @@ def trigger_series(
                 counted &= np.arange(view.ticks) < flight.landing_tick
             return mask & counted
         case SpeedTrigger():
-            body = view.body(trigger.who)
-            values = motion.speed(view, body)
+            values = motion.speed(view, view.body(trigger.who))
             below = trigger.on == 'speed_below'
-            mask = (
-                values <= trigger.value_mps.value if below else values >= trigger.value_mps.value
-            )
+            limit_mps = trigger.value_mps.value
+            mask = values <= limit_mps if below else values >= limit_mps
             return mask & view.present(trigger.who)
         case BatteryTrigger():
             left = motion.battery_series(view, view.body(trigger.uav), rules.touchdown_m)
             return left < trigger.value.value
         case ArrivalTrigger() if arrives_on_sidewalk(trigger):
-            sidewalks = view.geometry.surfaces(SurfaceKind.SIDEWALK)
-            return sidewalks.contains(view.reference(trigger.who)[:, :2]) & view.present(
-                trigger.who
-            )
+            points = view.reference(trigger.who)[:, :2]
+            on = view.geometry.surfaces(SurfaceKind.SIDEWALK).contains(points)
+            return on & view.present(trigger.who)
         case ArrivalTrigger():
             if view.geometry.place_point(trigger.place) is None:
                 return None

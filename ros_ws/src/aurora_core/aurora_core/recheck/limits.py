@@ -20,6 +20,9 @@ _LIMITS: dict[str, tuple[str | None, str]] = {
     'uav_endurance_s': (None, 'uav_endurance_s'),
     'vehicle_speed_max_mps': (None, 'vehicle_speed_max_mps'),
     'pedestrian_speed_max_mps': (None, 'pedestrian_speed_max_mps'),
+    'uav_climb_max_mps': (None, 'uav_climb_max_mps'),
+    'uav_descent_max_mps': (None, 'uav_descent_max_mps'),
+    'gust_max_mps': (None, 'gust_max_mps'),
     'wind_max_mps': (None, 'wind_max_mps'),
     'duration_s': ('duration_min_s', 'duration_max_s'),
     'uavs_max': (None, 'uavs_max'),
@@ -27,7 +30,7 @@ _LIMITS: dict[str, tuple[str | None, str]] = {
 }
 # A message that is lost with certainty: the limit follows from what a probability is.
 _LOSS = 'link_loss'
-_SIGNED = {'m', 's', 'm/s', '1'}
+_SIGNED = {'m', 's', 'm/s', 'm/s^2', '1'}
 
 
 def by_limit(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
@@ -108,6 +111,10 @@ def _ends(name: str) -> tuple[float, float] | None:
             return None
         general = 'pedestrian_speed_max_mps' if row['is_person'] else 'vehicle_speed_max_mps'
         return 0.0, min(float(row['max_speed_mps']), float(table[general]))
+    if len(parts) == 3 and (parts[0], parts[2]) == ('agent_types', 'emergency_decel_mps2'):
+        rows = read_config('knowledge', 'measured', 'agent_types.json')['types']
+        ends = [float(r['emergency_decel_mps2']) for r in rows if r['name'] == parts[1]]
+        return (0.0, ends[0]) if ends else None
     keys = _LIMITS.get(name)
     if keys is None:
         return None

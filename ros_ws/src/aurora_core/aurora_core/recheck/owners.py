@@ -18,7 +18,9 @@ _MISSIONS: Mapping[str, str] = MappingProxyType(
         'duration_s': 'uav_endurance_s',
     }
 )
-_WORLD = MappingProxyType({'wind_mps': 'wind_max_mps', 'duration_s': 'duration_s'})
+_WORLD = MappingProxyType(
+    {'wind_mps': 'wind_max_mps', 'gust_mps': 'gust_max_mps', 'duration_s': 'duration_s'}
+)
 
 
 def limits_on(spec: dict[str, Any], path: str, *, above: bool) -> tuple[str, ...]:
@@ -60,12 +62,30 @@ def _of_agent(spec: dict[str, Any], name: str) -> tuple[str, ...]:
     return general, f'agent_types/{kind}/max_speed_mps'
 
 
+def _climb(spec: dict[str, Any], action: dict[str, Any]) -> tuple[str, ...]:
+    """Up at most; down where every altitude of the UAV is stated and higher."""
+    to = action['altitude_m']
+    own = [m['altitude_m'] for m in spec.get('missions', ()) if m['uav'] == action['uav']]
+    stated = all(a['provenance'] == 'explicit' for a in (to, *own))
+    down = bool(own) and stated and all(a['value'] > to['value'] for a in own)
+    return ('uav_descent_max_mps',) if down else ('uav_climb_max_mps',)
+
+
+def _braking(spec: dict[str, Any], name: str) -> tuple[str, ...]:
+    kinds = [a['type'] for a in spec.get('agents', ()) if name in (a['id'], a.get('group'))]
+    return tuple(f'agent_types/{kind}/emergency_decel_mps2' for kind in kinds[:1])
+
+
 def _of_event(spec: dict[str, Any], event: dict[str, Any], field: str) -> tuple[str, ...]:
     trigger, action = event.get('trigger') or {}, event.get('action') or {}
     if field == 'trigger/value_m' and trigger['on'] == 'altitude_reached':
         return ('uav_altitude_m',)
     if field == 'trigger/value_mps' and trigger['on'] == 'speed_above':
         return _of_agent(spec, trigger['who'])
+    if field == 'action/vertical_mps':
+        return _climb(spec, action)
+    if field == 'action/deceleration_mps2':
+        return _braking(spec, action['agent'])
     if field == 'action/altitude_m':
         return ('uav_altitude_m',)
     return _of_agent(spec, action['agent']) if field == 'action/value_mps' else ()
@@ -81,6 +101,8 @@ def _of_condition(
     # "At most 2 m" of a moment can be met on the ground.
     if (op not in ('>', '>=', '==')) if above else (op not in ('<', '<=') or partly):
         return ()
+    if quantity == 'deceleration' and above:
+        return _braking(spec, of[0])
     if quantity == 'altitude' and aloft:
         return ('uav_altitude_m',)
     if quantity == 'speed' and above and len(of) == 1:

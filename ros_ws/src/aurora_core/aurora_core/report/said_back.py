@@ -22,6 +22,7 @@ from aurora_core.spec.events import (
     Event,
     EventAction,
     EventDoneTrigger,
+    HeadwayTrigger,
     MessageTrigger,
     MissionDoneTrigger,
     SendMessage,
@@ -129,7 +130,7 @@ def _named_numbers(element: Document, *, stated: bool, said: Sequence[str] = ())
 
 def _plain(field: str) -> str:
     """Return the name of a field without its unit: `closing_from_m` is `closing from`."""
-    for unit in ('_mps', '_deg', '_m', '_s'):
+    for unit in ('_mps2', '_mps', '_deg', '_m', '_s'):
         if field.endswith(unit):
             return field.removesuffix(unit).replace('_', ' ')
     return field.replace('_', ' ')
@@ -299,6 +300,9 @@ def _trigger(trigger: Trigger) -> str:
         case DistanceTrigger(on=on, a=a, b=b, value_m=value):
             near = 'within' if on == 'distance_below' else 'beyond'
             return f'{a} comes {near} {_number(value)} of {_place(b)}{_centres((a, b))}'
+        case HeadwayTrigger(on=on, a=a, b=b, value_s=value):
+            what = 'headway' if on == 'headway_below' else 'time to collision'
+            return f'the {what} of {a} behind {b} falls below {_number(value)}'
         case TimeTrigger(at_s=at):
             return f'{_number(at)} have passed'
         case AltitudeTrigger(uav=uav, value_m=value):
@@ -322,8 +326,9 @@ def _trigger(trigger: Trigger) -> str:
 
 def _action(action: EventAction) -> str:
     match action:
-        case SendMessage(sender=sender, receiver=receiver):
-            return f'{sender} sends a message to {receiver}'
+        case SendMessage(sender=sender, receiver=receiver, text=text):
+            says = '' if text is None else f' that says "{text}"'
+            return f'{sender} sends a message to {receiver}{says}'
         case UavAction(do='change_mission', uav=uav, mission=mission):
             return f'{uav} goes over to {mission}'
         case UavAction(do=do, uav=uav) | AgentAction(do=do, agent=uav):

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, StringConstraints, model_validator
 
 from aurora_core.document import omitted
 from aurora_core.spec.parameter import Bound, Element, Parameter, Span
@@ -21,6 +21,15 @@ class DistanceTrigger(Element):
     a: Id
     b: Id | PlaceRef
     value_m: Parameter
+
+
+class HeadwayTrigger(Element):
+    """Headway, or time to collision, of `a` behind `b` in its lane falls below a threshold."""
+
+    on: Literal['headway_below', 'ttc_below']
+    a: Id
+    b: Id
+    value_s: Parameter
 
 
 class TimeTrigger(Element):
@@ -95,6 +104,7 @@ class BatteryTrigger(Element):
 
 Trigger = Annotated[
     DistanceTrigger
+    | HeadwayTrigger
     | TimeTrigger
     | AltitudeTrigger
     | VisibilityTrigger
@@ -109,38 +119,58 @@ Trigger = Annotated[
 
 
 class SendMessage(Element):
-    """Send a message over the link between the two."""
+    """Send a message over the link between the two; what it says is recorded with it."""
 
     do: Literal['send_message']
     sender: Id
     receiver: Id
+    text: Annotated[str, StringConstraints(min_length=1, max_length=200)] | None = omitted(None)
 
 
 # What a ground agent can be made to do.
 AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
 
 
+# What takes speed off, and may be told how hard.
+BRAKING = frozenset({'brake', 'stop', 'slow'})
+
+
 class AgentAction(Element):
-    """A ground agent changes what it does; `side` is that of the lane it changes to."""
+    """A ground agent changes what it does.
+
+    Attributes:
+        value_mps: Speed that it ends with.
+        deceleration_mps2: How hard it brakes for that (mean fully developed deceleration).
+        side: Of the lane that it changes to.
+    """
 
     do: AgentDo
     agent: Id
     value_mps: Parameter | None = None
+    deceleration_mps2: Parameter | None = omitted(None)
     side: LaneSide | None = omitted(None)
 
     @model_validator(mode='after')
     def _has_its_fields(self) -> Self:
         if self.side is not None and self.do != 'change_lane':
             raise ValueError(f'a side belongs to change_lane alone, found it with {self.do}')
+        if self.deceleration_mps2 is not None and self.do not in BRAKING:
+            raise ValueError(f'a deceleration belongs to braking, found it with {self.do}')
         return self
 
 
 class UavAction(Element):
-    """A UAV changes what it does; `return_home` lands it where it started."""
+    """A UAV changes what it does; `return_home` lands it where it started.
+
+    Attributes:
+        altitude_m: Where it climbs or descends to (`ascend`).
+        vertical_mps: How fast it does that, up or down; above zero.
+    """
 
     do: Literal['land', 'return_home', 'ascend', 'change_mission']
     uav: Id
     altitude_m: Parameter | None = None
+    vertical_mps: Parameter | None = omitted(None)
     mission: Id | None = None
 
     @model_validator(mode='after')
@@ -149,6 +179,8 @@ class UavAction(Element):
             raise ValueError(f'a mission belongs to change_mission alone, found it with {self.do}')
         if self.do == 'ascend' and self.altitude_m is None:
             raise ValueError('ascend needs altitude_m')
+        if self.do != 'ascend' and self.vertical_mps is not None:
+            raise ValueError(f'a vertical speed belongs to ascend, found it with {self.do}')
         return self
 
     @property
@@ -275,6 +307,8 @@ def actor_of(event: Event) -> str | None:
             return trigger.b if trigger.a == told else trigger.a
         case SpeedTrigger() | ArrivalTrigger():
             return trigger.who
+        case HeadwayTrigger():
+            return trigger.a
         case VisibilityTrigger():
             return trigger.target if trigger.on == 'visible' else None
         case _:

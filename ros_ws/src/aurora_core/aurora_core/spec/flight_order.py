@@ -13,6 +13,7 @@ from aurora_core.spec.events import (
     DistanceTrigger,
     Event,
     EventDoneTrigger,
+    HeadwayTrigger,
     MissionDoneTrigger,
     SendMessage,
     SpeedTrigger,
@@ -25,6 +26,9 @@ from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.parking import parks, stands
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
 from aurora_core.spec.vocabulary import MissionMode
+
+# Triggers by what bodies do or where they are, not by a clock or another event.
+_OF_STATES = (DistanceTrigger, HeadwayTrigger, VisibilityTrigger, SpeedTrigger, ArrivalTrigger)
 
 
 def is_next_anyway(event: Event) -> bool:
@@ -57,7 +61,8 @@ def counts_from_capture(spec: ScenarioSpec, event: Event) -> bool:
     if not isinstance(event.action, UavAction):
         return False
     if not isinstance(
-        event.trigger, DistanceTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger
+        event.trigger,
+        DistanceTrigger | HeadwayTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger,
     ):
         return False
     first = next((m for m in spec.missions if m.uav == event.action.uav), None)
@@ -198,7 +203,8 @@ def awaits_reports(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
         if isinstance(e.action, SendMessage)
         and e.action.sender == uav
         and isinstance(
-            e.trigger, DistanceTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger
+            e.trigger,
+            DistanceTrigger | HeadwayTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger,
         )
         and not (e.trigger.on == 'distance_above' and _gets_far_itself(spec, e, last))
     )

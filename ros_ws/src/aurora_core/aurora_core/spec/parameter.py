@@ -95,6 +95,7 @@ class Parameter(Document):
 
 
 _SUFFIXES = (
+    ('_mps2', Unit.METRE_PER_SECOND_SQUARED),
     ('_mps', Unit.METRE_PER_SECOND),
     ('_deg', Unit.DEGREE),
     ('_m', Unit.METRE),

@@ -33,11 +33,12 @@ from aurora_core.spec.vocabulary import (
 class World(Element):
     """Where and when: map name, weather, time of day, traffic, horizon (None = inferred).
 
-    A wind that is named, in one of three ways or several, replaces that of the weather; gusts are
-    those of the weather.
+    A wind that is named, in one of three ways or several, replaces that of the weather; so do
+    gusts whose speed is named.
 
     Attributes:
         wind_mps: Mean speed of the wind.
+        gust_mps: Speed of the wind at the height of a gust.
         wind_from_deg: Compass bearing that it comes from; None: open.
         wind: How it meets the longest leg, or the way of a tracked vehicle at capture.
         seed: The seed that the prompt asks for; None: that of the run.
@@ -51,6 +52,7 @@ class World(Element):
     traffic_density: TrafficDensity | None = None
     duration_s: Parameter | None = None
     wind_mps: Parameter | None = omitted(None)
+    gust_mps: Parameter | None = omitted(None)
     wind_from_deg: Parameter | None = omitted(None)
     wind: RelativeWind | None = omitted(None)
     wind_span: Span | None = omitted(None)
@@ -101,6 +103,10 @@ class Placement(Element):
         return self.kept_in_motion and steady
 
 
+# Who does this has somebody ahead, and may be told how far in time.
+KEEPS_HEADWAY = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
+
+
 class Behavior(Element):
     """What an agent does.
 
@@ -111,6 +117,7 @@ class Behavior(Element):
         speed_mps: Stated speed.
         closing_from_m: Tailgate or approach: distance to `target` at t = 0 and when the
             closing starts.
+        headway_s: Follow or tailgate: bumper gap to the target divided by one's own speed.
         side: Of the lane that is changed to.
     """
 
@@ -119,6 +126,7 @@ class Behavior(Element):
     target_inferred: bool = omitted(False)
     speed_mps: Parameter | None = None
     closing_from_m: Parameter | None = None
+    headway_s: Parameter | None = omitted(None)
     side: LaneSide | None = omitted(None)
     span: Span | None = None
 
@@ -126,6 +134,8 @@ class Behavior(Element):
     def _side_is_of_a_lane(self) -> Self:
         if self.side is not None and self.kind is not BehaviorKind.CHANGE_LANE:
             raise ValueError(f'a side belongs to change_lane alone, found it with {self.kind}')
+        if self.headway_s is not None and self.kind not in KEEPS_HEADWAY:
+            raise ValueError(f'a headway belongs to following, found it with {self.kind}')
         return self
 
 

@@ -48,6 +48,7 @@ from aurora_core.spec.scenario import (
     Order,
     Placement,
     ScenarioSpec,
+    StatedCondition,
     Uav,
     UavMission,
 )
@@ -99,6 +100,7 @@ class Stage:
     events: tuple[Event, ...] = ()
     orders: tuple[Order, ...] = ()
     prohibitions: tuple[Prohibition, ...] = ()
+    conditions: tuple[StatedCondition, ...] = ()
     buildings: tuple[Building, ...] = ()
     lanes: tuple[CentreLine, ...] = ()
     street_x_m: tuple[float, float] | None = None
@@ -313,6 +315,7 @@ class Stage:
             events=self.events,
             orders=self.orders,
             prohibitions=self.prohibitions,
+            conditions=self.conditions,
         )
 
     def _link(self, link: Link) -> MessageLink:
@@ -362,6 +365,7 @@ class Stage:
             battery=BatteryRule(endurance_s=10.0, touchdown_m=0.3),
             action_rules=action_rules(load_tolerances(config_path('tolerances.json'))),
             driving=self.driving,
+            deceleration=load_tolerances(config_path('tolerances.json')).deceleration_mps2,
             horizon_ticks=self.horizon_ticks,
             stated_horizon=self.stated_horizon,
             earliest_end_ticks=self.earliest_end_ticks,

@@ -244,6 +244,31 @@ def test_a_type_that_cannot_go_so_fast(
     assert found.limit_name == 'vehicle_speed_max_mps'
 
 
+def test_nobody_brakes_harder_than_its_type_can(
+    limits: Limits, parameter: Make, agent_types: Mapping[str, AgentTypeRecord]
+) -> None:
+    most = agent_types['bus'].emergency_decel_mps2
+
+    def asked(value: float, bound: Bound = Bound.EXACTLY) -> tuple[ScenarioSpec, ...]:
+        hard = parameter(value, 'm/s^2', bound=bound)
+        agents = (GroundAgent(id='b1', type=AgentType.BUS),)
+        action = AgentAction(do='brake', agent='b1', deceleration_mps2=hard)
+        stated = StatedCondition(id='c1', quantity='deceleration', of=('b1',), op='>=', value=hard)
+        return (
+            ScenarioSpec(prompt='x', agents=agents, events=(Event(id='e1', action=action),)),
+            ScenarioSpec(prompt='x', agents=agents, conditions=(stated,)),
+        )
+
+    for spec in (*asked(most), *asked(most + 1.0, Bound.AT_MOST)):
+        assert check_limits(spec, limits, agent_types).result is Feasibility.FEASIBLE
+    for spec in (*asked(most + 0.1), *asked(most + 0.1, Bound.AT_LEAST)):
+        [found] = check_limits(spec, limits, agent_types).certificates
+        assert found.reason == 'speed_limit'
+        assert found.limit_name == 'agent_types/bus/emergency_decel_mps2'
+        assert found.sentence.startswith('A deceleration of')
+        assert recheck(found, spec.model_dump(mode='json')).valid
+
+
 @pytest.mark.parametrize('extra', [0, 1])
 def test_counts(extra: int, limits: Limits) -> None:
     agents = tuple(

@@ -71,6 +71,13 @@ def test_it_blows_from_where_it_is_said(
     assert found.wind_gust_mps == 0.0
 
 
+def test_gusts_exceed_the_mean_wind_by_what_is_stated(blown: Blown, parameter: Make) -> None:
+    found = blown(HOVER, wind_mps=parameter(5.0, 'm/s'), gust_mps=parameter(8.0, 'm/s'))
+    assert found.wind_gust_mps == pytest.approx(3.0)
+    up_to = parameter(8.0, 'm/s', bound=Bound.AT_MOST)
+    assert blown(HOVER, gust_mps=up_to).wind_gust_mps == pytest.approx(8.0)
+
+
 def test_gusts_stay_those_of_the_weather(blown: Blown, parameter: Make, limits: Limits) -> None:
     found = blown('In rain a drone hovers over City Hall at 50 m.', wind_mps=parameter(8.0, 'm/s'))
     assert hypot(*_wind(found)) == pytest.approx(8.0)

@@ -565,6 +565,25 @@ def test_a_climb_that_an_event_asks_for_lasts_to_the_end_of_the_mission(
     assert follower.state[UavColumn.Z] == pytest.approx(30.0, abs=0.5)
 
 
+@pytest.mark.parametrize(('to_m', 'vertical_mps'), [(60.0, 1.5), (10.0, 0.8)])
+def test_a_stated_vertical_speed_is_flown_for_that_climb_alone(
+    to_m: float, vertical_mps: float
+) -> None:
+    machine = _machine(_hover(duration_s=200.0))
+    machine.start()
+    follower = _Follower(machine)
+    follower.until(lambda: machine.captured)
+    before = len(follower.rows)
+    machine.climb_to(to_m, vertical_mps)
+    follower.until(lambda: abs(follower.state[UavColumn.Z] - to_m) < 0.5)
+    rates = [abs(r[UavCommandColumn.VZ]) for r in follower.rows[before:]]
+    assert max(rates) == pytest.approx(vertical_mps)
+    before = len(follower.rows)
+    machine.climb_to(30.0)
+    follower.until(lambda: abs(follower.state[UavColumn.Z] - 30.0) < 0.5)
+    assert max(abs(r[UavCommandColumn.VZ]) for r in follower.rows[before:]) > 2.0
+
+
 def test_a_hover_without_a_place_brakes_and_stays_where_that_ends() -> None:
     stays = _hover('m2', hover_point=None, rest_mps=0.5, waits=True)
     machine = _machine(_track(until_event=True), stays)

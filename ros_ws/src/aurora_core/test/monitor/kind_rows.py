@@ -25,6 +25,7 @@ from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.schedule import PlanFacts
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
+from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.trace import Trace
 
@@ -175,16 +176,7 @@ def stated(
     case: Case, quantity: str, of: tuple[str, ...], op: str, value: float, **more: float
 ) -> Case:
     """Add the stated condition c1; `hold_s`, `by_s` and `fraction` may follow."""
-    units = {
-        'speed': Unit.METRE_PER_SECOND,
-        'visible_time': Unit.SECOND,
-        'event_time': Unit.SECOND,
-        'delivery_latency': Unit.SECOND,
-    }
-    metres = (
-        'distance', 'horizontal_distance', 'separation', 'altitude', 'hover_drift', 'clearance',
-    )  # fmt: skip
-    unit = Unit.METRE if quantity in metres else units.get(quantity, Unit.ONE)
+    unit = STATED_QUANTITIES[quantity]
     numbers = {
         name: number(x, Unit.ONE if name == 'fraction' else Unit.SECOND)
         for name, x in more.items()

@@ -114,8 +114,25 @@ def _from(from_deg: float, east_mps: float = 0.0, north_mps: float = -4.0) -> Ca
     return _wind(east_mps, north_mps, wind_from_deg=number(from_deg, Unit.DEGREE, explicit=True))
 
 
+def _gusting(over_mps: float, asked_mps: float, bound: Bound = Bound.EXACTLY) -> Case:
+    """A mean wind of 5 m/s, and gusts that exceed it."""
+    asked = number(asked_mps, Unit.METRE_PER_SECOND, explicit=True, bound=bound)
+    case = _wind(3.0, 4.0, gust_mps=asked)
+    case.world = replace(case.world, wind=replace(case.world.wind, gust_mps=over_mps))
+    return case
+
+
 ROWS = (
     # 1 % is allowed.
+    Row(id='world.gust_speed', make=lambda: _gusting(3.0, 8.0), margin=0.08),
+    Row(id='world.gust_speed', make=lambda: _gusting(0.0, 8.0), margin=0.08 - 8.0),
+    Row(
+        id='world.gust_speed',
+        make=lambda: _gusting(1.0, 8.0, Bound.AT_MOST),
+        margin=0.08 - 2.0,
+        what='up-to',
+    ),
+    Row(id='world.gust_speed', make=lambda: cut(_gusting(3.0, 8.0), 200), reason=SHORT),
     Row(id='world.wind_speed', make=lambda: _blowing(5.0), margin=0.05),
     Row(id='world.wind_speed', make=lambda: _blowing(6.0), margin=0.05 - 1.0),
     Row(id='world.wind_speed', make=lambda: cut(_blowing(5.0), 200), reason=SHORT),

@@ -66,6 +66,8 @@ def _agent(agent: GroundAgent) -> str:
             words.append(f'speed {_p(behavior.speed_mps)}')
         if behavior.closing_from_m is not None:
             words.append(f'from {_p(behavior.closing_from_m)}')
+        if behavior.headway_s is not None:
+            words.append(f'{_p(behavior.headway_s)} s')
         if behavior.side is not None:
             words.append(f'to the {behavior.side.value}')
         parts.append(f'{behavior.kind.value}({" ".join(words)})')

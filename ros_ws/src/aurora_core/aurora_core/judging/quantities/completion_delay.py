@@ -31,9 +31,11 @@ from aurora_core.judging.quantities.lane_change import the_lane
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import motion
-from aurora_core.quantities.actions import ends_with_mps
+from aurora_core.quantities.actions import ends_with_mps, least_climb_mps
+from aurora_core.quantities.braking import least_mps2, most_mps2
 from aurora_core.quantities.lane_changes import LANE_CHANGE_S
 from aurora_core.quantities.ticks import first_tick
+from aurora_core.spec.events import BRAKING
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Event, UavAction
@@ -217,6 +219,9 @@ def of_climb(
     """Return that a UAV is soon where an event makes it climb to."""
     allowed_s = inputs.tolerances.action_done_s
     rates = climb_mps(inputs), descent_mps(inputs)
+    if action.vertical_mps is not None:
+        least = least_climb_mps(action.vertical_mps, inputs.tolerances.vertical_mps)
+        rates = min(rates[0], least), min(rates[1], least)
     if altitude.provenance is Provenance.EXPLICIT:
         source = stated_by(source, altitude)
     return condition(
@@ -258,6 +263,12 @@ def implied(
     if facts is not None:
         gains = action.do in ('accelerate', 'start')
         least = facts.acceleration_mps2 if gains else facts.deceleration_mps2
+    if action.do in BRAKING:
+        tolerance = inputs.tolerances.deceleration_mps2
+        most = most_mps2(inputs.spec, action.agent, tolerance)
+        least = least if most is None else min(least, most)
+        if action.deceleration_mps2 is not None:
+            least = least_mps2(action.deceleration_mps2, tolerance)
     done = ENDS.get(action.do, '')
     if action.side is not None:
         done = f'is in the middle of {the_lane(action.side)}'

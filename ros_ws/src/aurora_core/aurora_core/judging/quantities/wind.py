@@ -28,7 +28,7 @@ from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.quantities import motion
 from aurora_core.quantities.angle import bearing_error_deg, compass_bearing_deg
 from aurora_core.quantities.waypoints import longest_leg
-from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.parameter import Bound, Parameter, Span
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import ENVIRONMENT_ID
 from aurora_core.spec.vocabulary import MissionMode, RelativeWind
@@ -59,6 +59,23 @@ class WindSpeed(Quantity):
             return ticks
         speed_mps = norm2(*_blows_to(context))
         return _measured(ticks, speed_mps, f'the recorded wind has {number(speed_mps)} m/s')
+
+
+class GustSpeed(Quantity):
+    """Speed of the recorded wind at the height of a gust, at each tick, m/s."""
+
+    name = QuantityName.WIND
+    kind: Literal['gust_speed'] = 'gust_speed'
+    window: Window = Window.RUN
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that speed: of the mean wind and of the gusts over it."""
+        ticks = context.window(condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        gust_mps = context.view.world.wind.gust_mps
+        speed_mps = norm2(*_blows_to(context)) + gust_mps if gust_mps > 0.0 else 0.0
+        return _measured(ticks, speed_mps, f'recorded gusts have {number(speed_mps)} m/s')
 
 
 class WindFrom(Quantity):
@@ -158,6 +175,23 @@ def speed(inputs: Inputs, asked: Parameter) -> Condition:
         of=(),
         target=number_target(asked, exact),
         arguments=WindSpeed(**inputs.common),
+        source=stated_by(_WORLD, asked),
+    )
+
+
+def gusts(inputs: Inputs, asked: Parameter) -> Condition:
+    """Return that gusts are as fast as the request says: up to a speed they reach that speed."""
+    exact = Tolerance(absolute=0.0, relative=inputs.tolerances.limit_margin)
+    reached = asked
+    if asked.bound is Bound.AT_MOST:
+        reached = asked.model_copy(update={'bound': Bound.EXACTLY})
+    return condition(
+        id='world.gust_speed',
+        sentence=f'gusts have {bound_words(reached)} {number(asked.value)} m/s',
+        signal='gust_speed',
+        of=(),
+        target=number_target(reached, exact),
+        arguments=GustSpeed(**inputs.common),
         source=stated_by(_WORLD, asked),
     )
 

@@ -18,10 +18,11 @@ from aurora_core.parsing.constructions.places import (
     placements_of,
 )
 from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measure import ACCELERATION
 from aurora_core.parsing.pronouns import mobile
 from aurora_core.parsing.reactions import REACTIONS
 from aurora_core.parsing.scene import Entity, Scene
-from aurora_core.spec.events import AgentDo
+from aurora_core.spec.events import BRAKING, AgentDo
 from aurora_core.spec.scenario import AgentAction, Behavior, EventAction, UavAction
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
 
@@ -105,8 +106,16 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
         for placement in placements_of(frame, who, kept=False):
             add_placement(who[0], placement)
     frame.scene.became(who[0].id)
+    do = _AGENT_DO[frame.key]
+    hard = frame.measure(ACCELERATION) if do in BRAKING else None
+    deceleration = None
+    if hard is not None and hard.measure is not None:
+        hard.used = True
+        deceleration = values.explicit('deceleration', hard.measure)
     side = lane_side(frame)
-    return AgentAction(do=_AGENT_DO[frame.key], agent=who[0].id, value_mps=speed, side=side)
+    return AgentAction(
+        do=do, agent=who[0].id, value_mps=speed, deceleration_mps2=deceleration, side=side
+    )
 
 
 def _in_brackets(frame: Frame, adjunct: Adjunct) -> bool:
@@ -156,6 +165,7 @@ def _uav_action(frame: Frame) -> UavAction | None:
             do=landed_by(frame) if frame.key == 'land' else 'ascend',
             uav=uavs[0].id,
             altitude_m=found.altitude,
+            vertical_mps=None if frame.key == 'land' else found.speed,
         )
     scene: Scene = frame.scene
     before = len(scene.missions)

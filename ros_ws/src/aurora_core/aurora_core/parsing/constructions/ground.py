@@ -23,6 +23,7 @@ from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Behavior, Placement
+from aurora_core.spec.scene import KEEPS_HEADWAY
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation
 
 # Predicates that name a behaviour in other words.
@@ -111,6 +112,12 @@ def behavior(frame: Frame) -> bool:
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
     if kind is BehaviorKind.OVERTAKE and not _overtakes(frame, target):
         kind = BehaviorKind.DRIVE  # `a bus goes past at 20 km/h`
+    headway = frame.attribute('gap') if kind in KEEPS_HEADWAY else None
+    kept = None if headway is None else headway.measure
+    if headway is not None and kept is not None and values.accepts('headway', kept):
+        headway.used = True
+    else:
+        kept = None
     side = lane_side(frame)
     placements = _placements(frame, subjects, target, closing)
     made = Behavior(
@@ -118,6 +125,7 @@ def behavior(frame: Frame) -> bool:
         target=target,
         speed_mps=speed,
         closing_from_m=closing,
+        headway_s=None if kept is None else values.explicit('headway', kept),
         side=side,
         span=frame.span,
     )
@@ -197,6 +205,7 @@ def add_behavior(entity: Entity, made: Behavior, placements: tuple[Placement, ..
                 target=known.target or made.target,
                 speed_mps=known.speed_mps or made.speed_mps,
                 closing_from_m=known.closing_from_m or made.closing_from_m,
+                headway_s=known.headway_s or made.headway_s,
                 side=known.side or made.side,
                 span=known.span,
             )

@@ -20,6 +20,7 @@ from aurora_core.parsing.llm.reading import (
 )
 from aurora_core.parsing.scene import EventDraft, LinkDraft
 from aurora_core.parsing.values import default
+from aurora_core.spec.events import BRAKING
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.scenario import (
@@ -34,6 +35,8 @@ from aurora_core.spec.scenario import (
 _TRIGGERS: dict[str, tuple[str, str, str, str]] = {
     'distance_below': ('a', 'b', 'value_m', 'trigger_distance'),
     'distance_above': ('a', 'b', 'value_m', 'trigger_distance'),
+    'headway_below': ('a', 'b', 'value_s', 'headway'),
+    'ttc_below': ('a', 'b', 'value_s', 'headway'),
     'time': ('', '', 'at_s', 'trigger_time'),
     'altitude_reached': ('uav', '', 'value_m', 'altitude'),
     'visible': ('observer', 'target', '', 'delay'),
@@ -53,6 +56,7 @@ _CONDITION_VALUES = {
     Unit.METRE: 'condition_distance',
     Unit.SECOND: 'condition_time',
     Unit.METRE_PER_SECOND: 'condition_speed',
+    Unit.METRE_PER_SECOND_SQUARED: 'condition_deceleration',
     Unit.ONE: 'condition_ratio',
 }
 
@@ -113,8 +117,21 @@ def _action(name: str, given: ActionReading, parts: Parts) -> EventAction:
     fields['sender' if message else 'uav' if flies else 'agent'] = parts.ref(given.subject)
     receiver = parts.ref_or_none(given.receiver)
     _put(fields, 'receiver' if message else '', receiver, f'{where}.receiver')
+    if given.text and not parts.facts.spans(given.text):
+        parts.complaints.append(f'{where}.text: {given.text!r} is not in the prompt')
+    _put(fields, 'text' if message else '', given.text or None, f'{where}.text')
     _put(fields, 'mission' if flies else '', mission, f'{where}.mission')
     _put(fields, 'side' if given.do == 'change_lane' else '', given.side, f'{where}.side')
+    hard = parts.number('deceleration', given.deceleration_mps2, f'{where}.deceleration_mps2')
+    _put(
+        fields,
+        'deceleration_mps2' if given.do in BRAKING else '',
+        hard,
+        f'{where}.deceleration_mps2',
+    )
+    rate = parts.number('vertical_speed', given.vertical_mps, f'{where}.vertical_mps')
+    climbs = given.do == 'ascend'
+    _put(fields, 'vertical_mps' if climbs else '', rate, f'{where}.vertical_mps')
     parameter = 'altitude' if flies else 'ground_speed'
     value = parts.number(parameter, given.value, f'{where}.value')
     _put(fields, '' if message else 'altitude_m' if flies else 'value_mps', value, where)

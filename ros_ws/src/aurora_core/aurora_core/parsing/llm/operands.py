@@ -34,8 +34,12 @@ class _Row:
 _ROWS = (
     _Row(quantities=('distance', 'horizontal_distance'), slots=((BODY,), (BODY, PLACE))),
     _Row(quantities=('separation',), slots=((BODY,), (BODY,)), more=True),
-    _Row(quantities=('speed',), slots=((BODY,),)),
-    _Row(quantities=('altitude', 'battery', 'hover_drift', 'waypoints_visited'), slots=((UAV,),)),
+    _Row(quantities=('time_headway', 'time_to_collision'), slots=((BODY,), (BODY,))),
+    _Row(quantities=('speed', 'deceleration'), slots=((BODY,),)),
+    _Row(
+        quantities=('vertical_speed', 'altitude', 'battery', 'hover_drift', 'waypoints_visited'),
+        slots=((UAV,),),
+    ),
     _Row(quantities=('landed', 'mission_completed'), slots=((UAV,),), done=True),
     _Row(quantities=('tracked_fraction', 'clearance'), slots=((UAV,), (BODY, PLACE))),
     _Row(quantities=('visible_fraction', 'visible_time'), slots=((BODY,), (BODY, PLACE))),

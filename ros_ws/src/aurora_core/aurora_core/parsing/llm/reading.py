@@ -57,6 +57,7 @@ class WorldReading(Document):
     traffic_density: TrafficDensity | None = None
     duration_s: Number | None = None
     wind_mps: Number | None = None
+    gust_mps: Number | None = None
     wind_from_deg: Number | None = None
     wind: RelativeWind | None = None
 
@@ -75,6 +76,7 @@ class BehaviorReading(Document):
     target: Reference | None = None
     speed_mps: Number | None = None
     closing_from_m: Number | None = None
+    headway_s: Number | None = None
     side: LaneSide | None = None
     quote: Quote
 
@@ -140,6 +142,8 @@ class TriggerReading(Document):
     on: Literal[
         'distance_below',
         'distance_above',
+        'headway_below',
+        'ttc_below',
         'time',
         'altitude_reached',
         'visible',
@@ -177,7 +181,10 @@ class ActionReading(Document):
     ]
     subject: Name
     receiver: Name | None = None
+    text: Annotated[str, StringConstraints(max_length=200)] | None = None
     value: Number | None = None
+    deceleration_mps2: Number | None = None
+    vertical_mps: Number | None = None
     mission: Name | None = None
     side: LaneSide | None = None
 
@@ -217,6 +224,10 @@ class ConditionReading(Document):
         'separation',
         'altitude',
         'speed',
+        'vertical_speed',
+        'deceleration',
+        'time_headway',
+        'time_to_collision',
         'tracked_fraction',
         'visible_fraction',
         'visible_time',

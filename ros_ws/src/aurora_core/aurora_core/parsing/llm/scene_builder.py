@@ -37,6 +37,7 @@ from aurora_core.spec.prohibitions import (
     Prohibition,
 )
 from aurora_core.spec.scenario import Behavior, Placement, SceneCount
+from aurora_core.spec.scene import KEEPS_HEADWAY
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
@@ -161,6 +162,7 @@ def _add_world(said: WorldReading, parts: Parts) -> None:
     draft.traffic = said.traffic_density
     draft.duration = parts.number('scenario_duration', said.duration_s, 'world.duration_s')
     draft.wind_speed = parts.number('wind_speed', said.wind_mps, 'world.wind_mps')
+    draft.gust = parts.number('gust_speed', said.gust_mps, 'world.gust_mps')
     draft.wind_from = parts.number('wind_from', said.wind_from_deg, 'world.wind_from_deg')
     draft.wind = said.wind
 
@@ -233,11 +235,16 @@ def _add_behavior(entity: Entity, said: BehaviorReading, where: str, parts: Part
     closing = parts.number('closing_from', said.closing_from_m, f'{where}.closing_from_m')
     if said.side is not None and said.kind is not BehaviorKind.CHANGE_LANE:
         parts.complaints.append(f'{where}.side: only who changes lane has one')
+    headway = parts.number('headway', said.headway_s, f'{where}.headway_s')
+    if headway is not None and said.kind not in KEEPS_HEADWAY:
+        parts.complaints.append(f'{where}.headway_s: only who follows or tailgates has one')
+        headway = None
     made = Behavior(
         kind=said.kind,
         target=parts.ref_or_none(said.target),
         speed_mps=parts.number('ground_speed', said.speed_mps, f'{where}.speed_mps'),
         closing_from_m=closing,
+        headway_s=headway,
         side=said.side if said.kind is BehaviorKind.CHANGE_LANE else None,
         span=parts.span(said.quote, where),
     )

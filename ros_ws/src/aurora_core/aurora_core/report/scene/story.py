@@ -21,6 +21,7 @@ from aurora_core.spec.scenario import (
     BatteryTrigger,
     DistanceTrigger,
     Event,
+    HeadwayTrigger,
     MessageTrigger,
     ScenarioSpec,
     SendMessage,
@@ -245,6 +246,9 @@ def _trigger_words(event: Event | None, record: EventRecord) -> tuple[str, str]:
         return f'{trigger.who} arrives at {_plain(trigger.place)}', trigger.who
     if isinstance(trigger, MessageTrigger):
         return f'{trigger.by} has received the message', trigger.by
+    if isinstance(trigger, HeadwayTrigger):
+        what = 'headway' if trigger.on == 'headway_below' else 'time to collision'
+        return f'{what} of {trigger.a} below {trigger.value_s.value:g} s', trigger.a
     if isinstance(trigger, SpeedTrigger):
         way = 'below' if trigger.on == 'speed_below' else 'above'
         return f'{trigger.who} {way} {trigger.value_mps.value:g} m/s', trigger.who
