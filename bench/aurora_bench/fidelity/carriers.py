@@ -59,6 +59,7 @@ class BehaviorFact:
     target: str | None = None
     speed_mps: Parameter | None = None
     side: str | None = None
+    duration_s: Parameter | None = None
 
 
 def placement_facts(spec: ScenarioSpec) -> Iterator[PlacementFact]:
@@ -101,6 +102,7 @@ def behavior_facts(spec: ScenarioSpec) -> Iterator[BehaviorFact]:
                 target=b.target,
                 speed_mps=b.speed_mps,
                 side=b.side,
+                duration_s=b.duration_s,
             )
         for p in agent.placements:
             if p.kept_in_motion and p.relation is Relation.BEHIND:

@@ -124,6 +124,7 @@ class BehaviorRequirement(_Requirement):
     target: Ref | None = None
     speed_mps: FiniteFloat | None = None
     side: Literal['left', 'right'] | None = None  # of the lane that change_lane goes to
+    duration_s: FiniteFloat | None = None  # how long it stands, or goes on
 
 
 class UavRequirement(_Requirement):

@@ -39,9 +39,10 @@ def _recorded(quantity: str, aspect: str) -> dict[str, Any]:
 SINCE = {
     'angle_swept', 'at_place', 'battery', 'clearance', 'climb_after_phase', 'climb_delay',
     'delivered_at', 'distance_fraction', 'driver_waits', 'lane_kept_after',
-    'longest_standstill', 'never_delivered', 'never_sent', 'outage', 'phase_after_event',
-    'report_gap', 'report_latency', 'return_distance', 'side_fraction', 'speed_once_there',
-    'traffic', 'undone', 'wind_course', 'wind_from', 'wind_speed',
+    'longest_standstill', 'motion_time', 'never_delivered', 'never_sent', 'outage',
+    'phase_after_event', 'report_gap', 'report_latency', 'return_distance', 'side_fraction',
+    'speed_once_there', 'standing_time', 'traffic', 'undone', 'wind_course', 'wind_from',
+    'wind_speed',
 }  # fmt: skip
 
 

@@ -68,6 +68,8 @@ def _agent(agent: GroundAgent) -> str:
             words.append(f'from {_p(behavior.closing_from_m)}')
         if behavior.side is not None:
             words.append(f'to the {behavior.side.value}')
+        if behavior.duration_s is not None:
+            words.append(f'for {_p(behavior.duration_s)}')
         parts.append(f'{behavior.kind.value}({" ".join(words)})')
     return ' '.join(parts)
 

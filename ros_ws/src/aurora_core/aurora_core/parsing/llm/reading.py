@@ -76,6 +76,7 @@ class BehaviorReading(Document):
     speed_mps: Number | None = None
     closing_from_m: Number | None = None
     side: LaneSide | None = None
+    duration_s: Number | None = None
     quote: Quote
 
 

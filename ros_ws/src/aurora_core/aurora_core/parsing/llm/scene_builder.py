@@ -37,6 +37,7 @@ from aurora_core.spec.prohibitions import (
     Prohibition,
 )
 from aurora_core.spec.scenario import Behavior, Placement, SceneCount
+from aurora_core.spec.scene import lasts
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
@@ -233,12 +234,17 @@ def _add_behavior(entity: Entity, said: BehaviorReading, where: str, parts: Part
     closing = parts.number('closing_from', said.closing_from_m, f'{where}.closing_from_m')
     if said.side is not None and said.kind is not BehaviorKind.CHANGE_LANE:
         parts.complaints.append(f'{where}.side: only who changes lane has one')
+    lasting = parts.number('behavior_duration', said.duration_s, f'{where}.duration_s')
+    if lasting is not None and not lasts(said.kind, lasting.bound):
+        parts.complaints.append(f'{where}.duration_s: nobody does that for a time')
+        lasting = None
     made = Behavior(
         kind=said.kind,
         target=parts.ref_or_none(said.target),
         speed_mps=parts.number('ground_speed', said.speed_mps, f'{where}.speed_mps'),
         closing_from_m=closing,
         side=said.side if said.kind is BehaviorKind.CHANGE_LANE else None,
+        duration_s=lasting,
         span=parts.span(said.quote, where),
     )
     if made.target == entity.id:
