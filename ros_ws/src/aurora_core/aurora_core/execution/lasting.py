@@ -12,33 +12,30 @@ from aurora_core.execution.observe import Observation
 from aurora_core.outcomes.grounded import GroundedAgent
 from aurora_core.quantities.actions import ActionRules
 from aurora_core.spec.parameter import Bound, Parameter
-from aurora_core.spec.parking import stands_first_s, stops_for_s
+from aurora_core.spec.parking import stands_first_s, stands_s, stops_for_s
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import STANDING, BehaviorKind
 
-# Inside a stated bound on a time this much is aimed at (s), but no less than half of it.
-_INSIDE_S = 1.0
-
-# What is to be done for some time is done for so much longer (s): nobody says when it begins. Who
+# What goes on for some time does so for so much longer (s): setting off is no part of it. Who
 # tailgates closes up before.
-_SPARE_S, _CLOSES_UP_S = 5.0, 20.0
+_SPARE_S, _CLOSES_UP_S = 1.0, 20.0
 
 # Sums of ticks are that exact (s); that somebody stands shows a tick or two later.
 _ROUNDING_S = 0.2
 
 
-def stands_s(stated: Parameter) -> float:
-    """Return for how long somebody stands who is asked to do so, seconds."""
-    return max(stated.inside(_INSIDE_S), stated.value / 2.0)
-
-
 @dataclass(slots=True, kw_only=True)
 class _Doing:
-    """How long somebody has done in one stretch what it is to do for some time."""
+    """How long somebody has done in one stretch what it is to do for some time.
+
+    Attributes:
+        begun: It stands from t = 0, or has been on the move: who is to stop drives before.
+    """
 
     agent: str
     kind: BehaviorKind
     stated: Parameter
+    begun: bool
     done_s: float = 0.0
 
     @property
@@ -69,13 +66,11 @@ class Standing:
         self._until: dict[int, int] = {}
         self._stop_ticks: dict[int, int] = {}
         for index, agent in enumerate(agents):
-            if agent.id not in asked:
-                continue  # background
-            first, stop = stands_first_s(asked[agent.id]), stops_for_s(asked[agent.id])
+            first = stands_first_s(asked[agent.id]) if agent.id in asked else None
             if first is not None:
                 self._until[index] = whole_ticks(stands_s(first), dt_s)
-            if stop is not None:
-                self._stop_ticks[index] = whole_ticks(stands_s(stop), dt_s)
+            if agent.stop_s is not None:
+                self._stop_ticks[index] = whole_ticks(agent.stop_s, dt_s)
 
     def begins(self, index: int, tick: int) -> None:
         """Note that somebody stands from a tick on."""
@@ -103,7 +98,12 @@ class Lasting:
         self._rules = rules
         self._dt_s = dt_s
         self._left = [
-            _Doing(agent=agent.id, kind=b.kind, stated=b.duration_s)
+            _Doing(
+                agent=agent.id,
+                kind=b.kind,
+                stated=b.duration_s,
+                begun=b.duration_s is not stops_for_s(agent),
+            )
             for agent in spec.agents
             for b in agent.behaviors
             if b.duration_s is not None
@@ -112,6 +112,10 @@ class Lasting:
     def step(self, seen: Observation) -> None:
         """Count a tick for everybody, and leave out who is done or gone."""
         self._left = [one for one in self._left if self._goes_on(one, seen.speed_mps(one.agent))]
+
+    def is_busy(self, agent: str) -> bool:
+        """Tell whether an agent has not done so yet: what nobody dates comes after it."""
+        return any(one.agent == agent for one in self._left)
 
     @property
     def done(self) -> bool:
@@ -122,6 +126,9 @@ class Lasting:
         if speed_mps is None:
             return False
         stands = one.kind in STANDING
+        one.begun |= speed_mps > self._rules.start_mps
+        if not one.begun:
+            return True
         does = speed_mps < self._rules.stop_mps if stands else speed_mps > self._rules.start_mps
         if does:
             one.done_s += self._dt_s

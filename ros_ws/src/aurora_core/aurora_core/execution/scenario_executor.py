@@ -21,7 +21,7 @@ from aurora_core.execution.events import EventRunner
 from aurora_core.execution.follower import Follower
 from aurora_core.execution.landing import PATIENCE_S, landing_spot
 from aurora_core.execution.lane_changer import LaneChanger
-from aurora_core.execution.lasting import Lasting, Standing, stands_s
+from aurora_core.execution.lasting import Lasting, Standing
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.overtaker import Overtaker
 from aurora_core.execution.premises import Premises
@@ -37,7 +37,6 @@ from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.quantities.actions import ActionRules
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
-from aurora_core.spec.parking import stops_for_s
 from aurora_core.spec.prohibitions import keeps_on
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.commands import GroundCommand
@@ -121,6 +120,7 @@ class ScenarioExecutor:
         self._seen: dict[tuple[str, str], bool] = {}
         self._ways = Ways(setup.spec, setup.drive_m)
         self._destinations = Destinations(setup.spec, setup.arrival_m)
+        self._lasting = Lasting(setup.spec, setup.action_rules, setup.roster.dt_s)
         self._runner = self._run_events(EventRunner)
         self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
         most_mps = setup.geometry.world.limits.uav_speed_max_mps
@@ -130,9 +130,6 @@ class ScenarioExecutor:
             setup.spec, setup.roster, self._lanes(), self._drives, setup.driving
         )
         self._standing = Standing(setup.spec, setup.agents, setup.roster.dt_s)
-        self._lasting = Lasting(setup.spec, setup.action_rules, setup.roster.dt_s)
-        stops = {agent.id: stops_for_s(agent) for agent in setup.spec.agents}
-        self._stop_s = {name: stands_s(asked) for name, asked in stops.items() if asked}
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
@@ -212,6 +209,7 @@ class ScenarioExecutor:
             self._held,
             stopping,
             self._ways,
+            self._lasting,
         )
 
     def _lanes(self) -> LaneChanger:
@@ -241,7 +239,7 @@ class ScenarioExecutor:
                     agent=index,
                     kind=GroundCommandKind.STOP_AT,
                     value=agent.stop_position_m,
-                    value2=self._stop_s.get(agent.id, _STANDS_S),
+                    value2=_STANDS_S if agent.stop_s is None else agent.stop_s,
                     text=agent.stop_lane_id,
                 )
             )

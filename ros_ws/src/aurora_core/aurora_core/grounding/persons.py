@@ -43,7 +43,7 @@ from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.parking import stands, stands_first_s, stops_for_good
+from aurora_core.spec.parking import stands, stands_first_s, stop_time_s, stops_for_good
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.stated import is_stated
@@ -193,6 +193,7 @@ class PersonPlacer:
                 arrival_position_m=None if stays else arrival,
                 lateral_m=seat.lateral_m,
                 way_xy_m=line_from(path, seat.arc_m) if free else (),
+                stop_s=stop_time_s(agent),
                 halt_xy_m=None if halts is None else path.position_at(halts)[:2],
                 release=ReleaseOn.NEVER if stays and not free else release.on,
                 release_uav=release.uav,

@@ -9,6 +9,9 @@ from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation
 
+# Inside a stated bound on a time this much is aimed at (s), but no less than half of it.
+_INSIDE_S = 1.0
+
 _GOES_THERE = frozenset({BehaviorKind.DRIVE, BehaviorKind.EMERGENCY_RUN})
 
 _STILL = frozenset({BehaviorKind.WAIT, BehaviorKind.PARK})
@@ -68,6 +71,17 @@ def stops_for_s(agent: GroundAgent) -> Parameter | None:
     stopping = (BehaviorKind.STOP, BehaviorKind.PARK)
     lasting = (b.duration_s for b in agent.behaviors if b.kind in stopping)
     return next((s for s in lasting if s is not None and s is not first), None)
+
+
+def stands_s(stated: Parameter) -> float:
+    """Return for how long somebody stands who is asked to do so, seconds."""
+    return max(stated.inside(_INSIDE_S), stated.value / 2.0)
+
+
+def stop_time_s(agent: GroundAgent) -> float | None:
+    """Return how long an agent stands by plan where it stops on its way; None: to the end."""
+    stated = stops_for_s(agent)
+    return None if stated is None else stands_s(stated)
 
 
 def stops_for_good(agent: GroundAgent) -> bool:
