@@ -23,6 +23,7 @@ from aurora_bench.checker.answers import (
 )
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.events import happened
+from aurora_bench.checker.lasting import lasting
 from aurora_bench.checker.numbers import Wanted, wanted
 from aurora_bench.checker.on_the_way import stated_between
 from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
@@ -54,10 +55,22 @@ def behavior(case: Case, requirement: Requirement) -> Judged:
 
 
 def _one(case: Case, requirement: Requirement, body: str) -> Judged:
-    judged = _kind(case, requirement, body)
+    judged = all_of([_kind(case, requirement, body), _time(case, requirement, body)])
     if requirement.get('speed_mps') is None or requirement.get('behavior') in ('slow',):
         return judged
     return all_of([judged, driven_speed(case, requirement, body)])
+
+
+def _time(case: Case, requirement: Requirement, body: str) -> Judged:
+    targets = [t for t in case.things(requirement.get('target')) if t != body]
+    spots = [t for t in targets if case.scene.is_body(t) or not case.scene.places.is_region(t)]
+
+    def near(surely: bool) -> BoolArray:
+        if not spots:
+            return np.ones(case.scene.recording.ticks, dtype=bool)
+        return _near(case, body, spots, AT_M[0 if surely else 1])
+
+    return lasting(case, requirement, body, targets, near, lambda: _held_up(case, body))
 
 
 def _kind(case: Case, requirement: Requirement, body: str) -> Judged:
@@ -88,6 +101,8 @@ def _kind(case: Case, requirement: Requirement, body: str) -> Judged:
         case 'drive' | 'circulate' | 'walk' | 'emergency_run':
             return _moves(case, requirement, body, targets)
         case 'stop' | 'wait' | 'park':
+            if requirement.get('duration_s') is not None:
+                kind = 'wait'  # how long is told apart from that
             return _stands(case, kind, body, targets, never=bool(requirement.get('negate')))
         case 'brake' | 'slow' | 'yield':
             action = {'do': kind, 'value_mps': requirement.get('speed_mps')}

@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from aurora_bench.checker import limits
 from aurora_bench.checker.answers import Judged, does_not, graded
@@ -47,14 +48,7 @@ def follow(scene: Scene, body: str, leader: str, stated: Wanted | None = None) -
         return does_not(f'{leader} is no body')
     ticks, gap, _ = gaps(scene, body, leader)
     speed = scene.speed(body)[ticks]
-    fast = speed > limits.FOLLOW_MOVING_MPS
-    least = np.where(fast, limits.FOLLOW_GAP_M[0], limits.FOLLOW_SLOW_GAP_M[0])
-    most = limits.FOLLOW_GAP_M[1]
-    if stated is not None:
-        half = (scene.bodies[body].length_m + scene.bodies[leader].length_m) / 2.0
-        least, most = np.minimum(least, stated.low - half), max(most, stated.high - half)
-    with np.errstate(invalid='ignore'):
-        good = (gap >= least) & (gap <= most)
+    good = within_gap(scene, body, leader, stated)
     times = scene.times[ticks]
     asked = times < missions_end_s(scene)
     late = asked & (times >= limits.FOLLOW_AFTER_S)
@@ -69,15 +63,36 @@ def follow(scene: Scene, body: str, leader: str, stated: Wanted | None = None) -
     return graded(whole >= limits.FOLLOW_SHARE, since >= limits.FOLLOW_SHARE, why)
 
 
-def tailgate(scene: Scene, body: str, leader: str) -> Judged:
-    """Return whether a body is less than 1 s behind another for 5 s."""
-    if not scene.is_body(leader):
-        return does_not(f'{leader} is no body')
+def within_gap(
+    scene: Scene, body: str, leader: str, stated: Wanted | None = None
+) -> npt.NDArray[np.bool_]:
+    """Return at each sample (`STEP_S` apart) whether a body follows another; see `follow`."""
+    ticks, gap, _ = gaps(scene, body, leader)
+    fast = scene.speed(body)[ticks] > limits.FOLLOW_MOVING_MPS
+    least = np.where(fast, limits.FOLLOW_GAP_M[0], limits.FOLLOW_SLOW_GAP_M[0])
+    most = limits.FOLLOW_GAP_M[1]
+    if stated is not None:
+        half = (scene.bodies[body].length_m + scene.bodies[leader].length_m) / 2.0
+        least, most = np.minimum(least, stated.low - half), max(most, stated.high - half)
+    with np.errstate(invalid='ignore'):
+        return np.asarray((gap >= least) & (gap <= most))
+
+
+def close_behind(scene: Scene, body: str, leader: str) -> npt.NDArray[np.bool_]:
+    """Return at each sample (`STEP_S` apart) whether a body is less than 1 s behind another."""
     ticks, gap, beside = gaps(scene, body, leader)
     speed = scene.speed(body)[ticks]
     with np.errstate(invalid='ignore', divide='ignore'):
         close = (speed > limits.TAILGATE_MPS) & (gap > -0.5) & (np.abs(beside) < 2.5)
         close &= gap / np.maximum(speed, 1e-9) < limits.TAILGATE_GAP_S
+    return np.asarray(close)
+
+
+def tailgate(scene: Scene, body: str, leader: str) -> Judged:
+    """Return whether a body is less than 1 s behind another for 5 s."""
+    if not scene.is_body(leader):
+        return does_not(f'{leader} is no body')
+    close = close_behind(scene, body, leader)
     longest, total = longest_s(close, STEP_S), float(close.sum()) * STEP_S
     why = (
         f'{body} under 1 s behind {leader} for {longest:.1f} s at a stretch, {total:.1f} s in all'

@@ -60,6 +60,7 @@ class BehaviorFact:
     speed_mps: Parameter | None = None
     headway_s: Parameter | None = None
     side: str | None = None
+    duration_s: Parameter | None = None
 
 
 def placement_facts(spec: ScenarioSpec) -> Iterator[PlacementFact]:
@@ -103,6 +104,7 @@ def behavior_facts(spec: ScenarioSpec) -> Iterator[BehaviorFact]:
                 speed_mps=b.speed_mps,
                 headway_s=b.headway_s,
                 side=b.side,
+                duration_s=b.duration_s,
             )
         for p in agent.placements:
             if p.kept_in_motion and p.relation is Relation.BEHIND:

@@ -131,7 +131,8 @@ def placement_fields(r: PlacementRequirement, subject: Subject, rule: NumberRule
 
 def behavior_fields(r: BehaviorRequirement, subject: Subject, rule: NumberRule) -> Fields:
     """Compare a behaviour with everything that the agent does."""
-    names = ['behavior', *_named(r.target, 'target'), *_numbers(r, 'speed_mps', 'headway_s')]
+    names = ['behavior', *_named(r.target, 'target')]
+    names += _numbers(r, 'speed_mps', 'headway_s', 'duration_s')
     names += _named(r.side, 'side')
 
     def compare(fact: BehaviorFact) -> Fields:
@@ -142,6 +143,8 @@ def behavior_fields(r: BehaviorRequirement, subject: Subject, rule: NumberRule) 
             fields['speed_mps'] = rule.counts('speed_mps', r.speed_mps, fact.speed_mps)
         if r.headway_s is not None:
             fields['headway_s'] = rule.counts('headway_s', r.headway_s, fact.headway_s)
+        if r.duration_s is not None:
+            fields['duration_s'] = rule.counts('duration_s', r.duration_s, fact.duration_s)
         if r.side is not None:
             fields['side'] = fact.side == r.side
         return fields
@@ -266,7 +269,9 @@ _READ: dict[str, frozenset[str]] = {
     'agent': frozenset({'ref', 'type', 'count', 'role'}),
     'uav': frozenset({'ref', 'count'}),
     'placement': frozenset({'agent', 'relation', 'of', 'distance_m', 'bearing_deg'}),
-    'behavior': frozenset({'agent', 'behavior', 'target', 'speed_mps', 'headway_s', 'side'}),
+    'behavior': frozenset(
+        {'agent', 'behavior', 'target', 'speed_mps', 'headway_s', 'side', 'duration_s'}
+    ),
     'mission': frozenset(
         {'ref', 'uav', 'mode', 'target', 'pattern', 'side', 'size_m', *_MISSION_NUMBERS}
     ),

@@ -126,6 +126,7 @@ class BehaviorRequirement(_Requirement):
     speed_mps: FiniteFloat | None = None
     headway_s: FiniteFloat | None = None  # of who follows or tailgates
     side: Literal['left', 'right'] | None = None  # of the lane that change_lane goes to
+    duration_s: FiniteFloat | None = None  # how long it stands, or goes on
 
 
 class UavRequirement(_Requirement):

@@ -141,7 +141,7 @@ def behavior(r: BehaviorRequirement, names: Names, numbers: Numbers) -> Doc:
     if numbers.are_judged and several and r.behavior in _TOWARDS_ONE:
         raise NotExpressibleError(f'{r.behavior} of several')
     side = {} if r.side is None else {'side': r.side}
-    stated = numbers.of(r, ('speed_mps', 'headway_s'))
+    stated = numbers.of(r, ('speed_mps', 'headway_s', 'duration_s'))
     return {'kind': r.behavior, 'target': names.one(r.target), **stated, **side}
 
 

@@ -229,3 +229,62 @@ def test_behaviour_of_or_towards_nobody_does_not_hold(stage: Any) -> None:
     assert stage.says(_does('follow', 'bus1'), bus) == 'does_not'
     assert stage.says({**_does('drive'), 'agent': 'bus1'}, bus) == 'does_not'
     assert stage.says(_does('drive', 'Atlantis')) == 'cannot_tell'
+
+
+def _pause(seconds: float, before_s: float = 10.0) -> Any:
+    """Speeds of a body that drives, stands for a time and drives on."""
+    edges = [before_s - 0.05, before_s, before_s + seconds, before_s + seconds + 0.05]
+    return lambda t: np.interp(t, edges, [8.0, 0.0, 0.0, 8.0])
+
+
+@pytest.mark.parametrize(
+    ('stood_s', 'variation', 'outcome'),
+    [
+        (15.0, None, 'holds'),
+        (16.2, None, 'holds'),
+        (9.0, None, 'does_not'),
+        (25.0, None, 'does_not'),
+        (90.0, None, 'does_not'),
+        (25.0, [15, 20], 'holds'),
+        (14.0, [15, 20], 'does_not'),
+        (9.0, [10, 15], 'holds'),
+        (90.0, [10, 15], 'does_not'),
+    ],
+)
+def test_who_stops_for_a_time_stands_for_it_and_drives_on(
+    stage: Any, stood_s: float, variation: list[float] | None, outcome: str
+) -> None:
+    stage.drive('car1', 'car', _pause(stood_s), x=-490.0)
+    asked = {'b.duration_s': variation} if variation else {}
+    assert stage.says({'id': 'b', **_does('stop', duration_s=15)}, variation=asked) == outcome
+
+
+@pytest.mark.parametrize(('seconds', 'outcome'), [(30, 'holds'), (50, 'does_not')])
+def test_who_drives_for_a_time_does_not_stop_in_it(
+    stage: Any, seconds: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', _pause(3.0, before_s=40.0), x=-490.0)
+    assert stage.says(_does('drive', duration_s=seconds)) == outcome
+
+
+@pytest.mark.parametrize(('seconds', 'outcome'), [(20, 'holds'), (55, 'does_not')])
+def test_a_stated_speed_is_driven_for_the_stated_time(
+    stage: Any, seconds: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', lambda t: np.interp(t, [24.9, 25.0], [5.0, 9.0]), x=-490.0)
+    faster = {
+        'kind': 'event',
+        'ref': 'e1',
+        'trigger': {'on': 'time', 'at_s': 25},
+        'action': {'do': 'accelerate', 'agent': 'car1', 'value_mps': 9},
+    }
+    assert stage.says(_does('drive', speed_mps=5, duration_s=seconds), faster) == outcome
+
+
+@pytest.mark.parametrize(('seconds', 'outcome'), [(20, 'holds'), (45, 'does_not')])
+def test_who_tailgates_for_a_time_is_close_for_it(
+    stage: Any, seconds: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', 8.0, x=-490.0)
+    stage.drive('bus1', 'bus', lambda t: np.interp(t, [30.0, 31.0], [8.0, 12.0]), x=-476.0)
+    assert stage.says(_does('tailgate', 'bus1', duration_s=seconds)) == outcome

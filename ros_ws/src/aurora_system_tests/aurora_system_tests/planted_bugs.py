@@ -315,6 +315,17 @@ def _never_let_up(executor: ScenarioExecutor) -> Stepper:
     return executor
 
 
+def _half_the_time(executor: ScenarioExecutor) -> Stepper:
+    """Let who is to stand for a time drive on after half of it."""
+    agents = tuple(
+        a if a.stop_s is None else a.model_copy(update={'stop_s': 0.5 * a.stop_s})
+        for a in executor._setup.agents
+    )
+    other = ScenarioExecutor(replace(executor._setup, agents=agents))
+    other._standing._until = {k: tick // 2 for k, tick in other._standing._until.items()}
+    return other
+
+
 def _after_the_ambulance(plan: UavPlan) -> UavPlan:
     document = plan.model_dump()
     for mission in document['missions']:
@@ -429,6 +440,18 @@ PLANTED = (
         'km/h, the drone reports to a police car.',
         _never_let_up,
         'condition:m1.tracked',
+    ),
+    _planted(
+        'stops for too short a time',
+        'A truck stops for 12 seconds. A drone tracks the truck.',
+        _half_the_time,
+        'condition:truck1.stop',
+    ),
+    _planted(
+        'waits for too short a time',
+        'A van waits for 14 seconds. A drone hovers at 30 meters for 10 seconds.',
+        _half_the_time,
+        'condition:van1.wait',
     ),
     _planted(
         'capture taken too early',

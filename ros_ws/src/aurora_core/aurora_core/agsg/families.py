@@ -76,6 +76,7 @@ _QUANTITIES = {
         QuantityName.LANE_CHANGE,
         QuantityName.YIELDING,
         QuantityName.OVER_LIMIT,
+        QuantityName.BEHAVIOR_TIME,
         QuantityName.DISTANCE_TRAVELLED,
         QuantityName.PRESENCE,
         QuantityName.JUMP,

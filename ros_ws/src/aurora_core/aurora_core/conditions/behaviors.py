@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from aurora_core.conditions.lasting import as_long, moves_for, stands_for, stated_distances
 from aurora_core.grounding.places import has_point
 from aurora_core.judging.build import Inputs, Source, Target, Underivable, condition, number
 from aurora_core.judging.quantities import (
@@ -382,11 +383,16 @@ def behavior_conditions(
                 continue
             name = behavior_id(agent, index)
             goal = parks_after(inputs.spec, agent) if kind is _PARK else None
-            if goal is not None:
+            if goal is not None and behavior.duration_s is None:
                 yield at_place.parks(inputs, agent, behavior, goal, name)
                 continue
-            yield from _implied(_as_stated(inputs, agent, behavior), agent, behavior, name)
+            stands = stands_for(inputs, agent, behavior, name)
+            if stands is None:
+                yield from _implied(_as_stated(inputs, agent, behavior), agent, behavior, name)
+            else:
+                yield stands
             yield from _there(inputs, agent, behavior, name)
+            yield from moves_for(inputs, agent, behavior, name)
             yield from placement.closing(inputs, agent, behavior, name)
             yield from _stated_speed(inputs, agent, behavior, name)
             if behavior.headway_s is not None:
@@ -401,23 +407,14 @@ def behavior_id(agent: GroundAgent, index: int) -> str:
 
 
 def _as_stated(inputs: Inputs, agent: GroundAgent, behavior: Behavior) -> Inputs:
-    """Return what a following is judged by: the distance that is stated for it goes before."""
-    other = inputs.agent(behavior.target or '')
-    if behavior.kind is not BehaviorKind.FOLLOW or other is None:
-        return inputs
-    pair = {agent.id, other.id}
-    stated = [
-        p.distance_m.value
-        for one in (agent, other)
-        for p in one.placements
-        if p.of in pair and p.distance_m is not None and p.keeps_distance
-    ]
-    t = inputs.tolerances
-    if behavior.headway_s is not None:
+    """Return what a pair is judged by: the distance or time that is stated for it goes before."""
+    stated = [metres for metres, _ in stated_distances(inputs, agent, behavior)]
+    if behavior.headway_s is not None and behavior.kind is BehaviorKind.FOLLOW:
         # What is stated in seconds is as far as the fastest one drives in them.
         stated.append(behavior.headway_s.value * inputs.limits.vehicle_speed_max_mps)
     if not stated:
-        return inputs
+        return as_long(inputs, behavior)
+    t = inputs.tolerances
     low_m, high_m = t.follow_gap_moving_m
     slack_m = t.placement_vehicle_m.of(max(stated))
     gaps_m = (min(low_m, t.follow_gap_slow_m[0]), max(high_m, max(stated) + slack_m))
@@ -464,6 +461,8 @@ def _there(
         source = Source(ids=(agent.id,), spans=(behavior.span or agent.span,))
         on = Placement(relation=Relation.ON, of=place)
         yield relation_fraction.kept(inputs, agent, on, place, f'{name}.on', source)
+    elif stands_for(inputs, agent, behavior, name) is not None:
+        return  # for its time it stands there
     elif place is not None and has_point(place) and behavior.kind in _ANYWHERE:
         yield at_place.implied(inputs, agent, behavior, place, name)
 

@@ -10,6 +10,7 @@ from aurora_core.comm.link import MessageLink, whole_ticks
 from aurora_core.execution.braking import Braking
 from aurora_core.execution.event_state import EventState, has_crossed, shows_after
 from aurora_core.execution.lane_changer import LaneChanger
+from aurora_core.execution.lasting import Lasting
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import BatteryRule, Progress, holds
 from aurora_core.execution.untold import heard_before, slowed_later
@@ -79,6 +80,7 @@ class EventRunner:
         stopping: Rows of the agents that stop by themselves, at their place.
         ways: Who has to drive before anybody stops.
         braking: How hard drivers brake.
+        lasting: Who is to do something for some time first.
 
     Attributes:
         sped_up: Rows of agents that drive as fast as an event has told them.
@@ -101,6 +103,7 @@ class EventRunner:
         stopping: frozenset[int],
         ways: Ways,
         braking: Braking,
+        lasting: Lasting,
     ) -> None:
         self._roster = roster
         self._rules = rules
@@ -109,6 +112,7 @@ class EventRunner:
         self._stopping = stopping
         self._ways = ways
         self._braking = braking
+        self._lasting = lasting
         self._drive = drive
         self._held = held
         self._spec = spec
@@ -363,6 +367,8 @@ class EventRunner:
             return event.action.uav in self._over_from
         heard = self._heard_before.get(event.id, frozenset())
         if not heard <= self._progress.received:
+            return False
+        if isinstance(event.action, AgentAction) and self._lasting.is_busy(event.action.agent):
             return False
         # Nobody says when: once the UAVs watch, have flown the route that this may end, and once
         # who is to brake or stop is on the move and has driven.

@@ -22,6 +22,7 @@ from aurora_core.execution.events import EventRunner
 from aurora_core.execution.follower import Follower
 from aurora_core.execution.landing import PATIENCE_S, landing_spot
 from aurora_core.execution.lane_changer import LaneChanger
+from aurora_core.execution.lasting import Lasting, Standing
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.overtaker import Overtaker
 from aurora_core.execution.premises import Premises
@@ -57,7 +58,7 @@ FloatArray = npt.NDArray[np.float64]
 # Who must not brake slows down no harder behind others: that is no braking (m/s^2).
 _GENTLY_MPS2 = 3.0
 
-# Who stops by itself stands for the rest of any run (s).
+# Who stops by itself, and nobody says for how long, stands for the rest of any run (s).
 _STANDS_S = 3600.0
 
 # Who walks up to a kerb is there when he is as near to it (m).
@@ -124,6 +125,7 @@ class ScenarioExecutor:
         self._ways = Ways(setup.spec, setup.drive_m)
         self._destinations = Destinations(setup.spec, setup.arrival_m)
         self._braking = Braking(setup.spec, setup.agents, setup.deceleration)
+        self._lasting = Lasting(setup.spec, setup.action_rules, setup.roster.dt_s)
         self._runner = self._run_events(EventRunner)
         self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
         most_mps = setup.geometry.world.limits.uav_speed_max_mps
@@ -132,6 +134,7 @@ class ScenarioExecutor:
         self._follower = Follower(
             setup.spec, setup.roster, self._lanes(), self._drives, setup.driving
         )
+        self._standing = Standing(setup.spec, setup.agents, setup.roster.dt_s)
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
@@ -153,7 +156,9 @@ class ScenarioExecutor:
         commands = self._initial_commands() if tick == 0 else []
         rows = self._fly(tick, uav, seen)
         commands += self._release(tick, seen)
-        commands += self._halts(seen)
+        commands += self._halts(tick, seen)
+        commands += self._stood(tick)
+        self._lasting.step(seen)
         self._ways.step(s.roster.dt_s, seen)
         self._destinations.step(seen)
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
@@ -210,6 +215,7 @@ class ScenarioExecutor:
             stopping,
             self._ways,
             self._braking,
+            self._lasting,
         )
 
     def _lanes(self) -> LaneChanger:
@@ -239,7 +245,7 @@ class ScenarioExecutor:
                     agent=index,
                     kind=GroundCommandKind.STOP_AT,
                     value=agent.stop_position_m,
-                    value2=_STANDS_S,
+                    value2=_STANDS_S if agent.stop_s is None else agent.stop_s,
                     text=agent.stop_lane_id,
                 )
             )
@@ -291,16 +297,30 @@ class ScenarioExecutor:
                 commands += self._released_commands(index, agent)
         return commands
 
-    def _halts(self, seen: Observation) -> list[GroundCommand]:
-        """Let persons who have walked to where they cross wait there for that."""
+    def _halts(self, tick: int, seen: Observation) -> list[GroundCommand]:
+        """Let persons who have walked to where they cross, or stop, stand there."""
         commands = []
         for index, (x_m, y_m) in sorted(self._walking_up.items()):
             point = seen.position(self._setup.agents[index].id)
             if point is not None and norm2(point[0] - x_m, point[1] - y_m) <= _AT_KERB_M:
                 del self._walking_up[index]
+                self._standing.begins(index, tick)
                 commands.append(
                     GroundCommand(agent=index, kind=GroundCommandKind.SET_SPEED, value=0.0)
                 )
+        return commands
+
+    def _stood(self, tick: int) -> list[GroundCommand]:
+        """Let go on who has stood for its time."""
+        commands: list[GroundCommand] = []
+        for index in self._standing.over(tick):
+            agent = self._setup.agents[index]
+            if index not in self._held:
+                commands.append(self._drive_command(index, agent))
+                continue
+            self._held.discard(index)
+            self.note(tick, ScenarioEventKind.RELEASED, agent.id)
+            commands += self._released_commands(index, agent)
         return commands
 
     def _released_commands(self, index: int, agent: GroundedAgent) -> list[GroundCommand]:
@@ -401,7 +421,9 @@ class ScenarioExecutor:
             if not machine.done:  # the usual answer
                 return False
         idle = all(link.idle for link in self._setup.links)
-        return idle and self._runner.done and self._destinations.all_reached()
+        return (
+            idle and self._runner.done and self._destinations.all_reached() and self._lasting.done
+        )
 
 
 def _is_as_far(agent: GroundedAgent, seen: Observation) -> bool:

@@ -131,6 +131,14 @@ def _rules(
                     low=0.0,
                     high=top,
                 )
+            if behavior.duration_s is not None:
+                yield _Rule(
+                    path=f'agents/{agent.id}/behaviors/{k}/duration_s',
+                    parameter=behavior.duration_s,
+                    reason='duration',
+                    limit_name='duration_s',
+                    high=limits.duration_max_s,
+                )
     for event in spec.events:
         trigger, action = event.trigger, event.action
         if isinstance(trigger, AltitudeTrigger):

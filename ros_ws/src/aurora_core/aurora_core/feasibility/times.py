@@ -141,6 +141,9 @@ def _span(spec: ScenarioSpec, path: str) -> Span | None:
     kind, _, name = path.partition('/')
     if kind == 'uavs':
         return next((m.span for m in reversed(spec.missions) if m.uav == name), None)
+    if kind == 'agents':
+        agent, _, number = name.partition('/behaviors/')
+        return next(a.behaviors[int(number)].span for a in spec.agents if a.id == agent)
     spans = {
         'orders': {o.id: o.span for o in spec.orders},
         'conditions': {c.id: c.span for c in spec.conditions},

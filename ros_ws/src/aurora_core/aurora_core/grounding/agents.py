@@ -50,7 +50,7 @@ from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.parameter import Bound
-from aurora_core.spec.parking import parks, parks_after, stands
+from aurora_core.spec.parking import parks, parks_after, stands, stop_time_s
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import Place
 
@@ -352,6 +352,7 @@ class AgentPlacer:
             runs_red=in_emergency(agent),
             stop_lane_id=stop_lane_id,
             stop_position_m=stop_position_m,
+            stop_s=stop_time_s(agent),
         )
 
     def _lane_changes(self, spec: ScenarioSpec, agent: GroundAgent, *, tied: bool) -> int | None:

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding import walk_ends
 from aurora_core.grounding.awaited import awaited_at, bound_to_places
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.distances import DEFAULT_GAP_M
@@ -42,7 +43,7 @@ from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.parking import stands
+from aurora_core.spec.parking import stands, stands_first_s, stop_time_s, stops_for_good
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.stated import is_stated
@@ -62,9 +63,6 @@ _SHORT_WAY_M = 60.0
 
 # Who stands behind a vehicle is so far from its bumper (m).
 _STANDS_BEHIND_M = 2.0
-
-# Who walks and stops has walked so far (m).
-_STOP_AFTER_M = 15.0
 
 # Vehicles have at least this way to a crosswalk that a person uses, and at most that (m).
 _CROSSWALK_AHEAD_M = (20.0, 120.0)
@@ -175,8 +173,7 @@ class PersonPlacer:
             release = person_release(spec, agent) if halts is None else Release()
             goal_m = self._map.network.lane(path.goal_lane_id).arc_length_m
             arrival = arrival_m(site, seat, goal_m, crosses=crosses(spec, agent))
-            if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
-                arrival = min(arrival, seat.arc_m + _STOP_AFTER_M)
+            halts, arrival = walk_ends.stopping_m(seat, halts, arrival)
             yield GroundedAgent(
                 id=agent.id,
                 type_name=agent.type.value,
@@ -196,6 +193,7 @@ class PersonPlacer:
                 arrival_position_m=None if stays else arrival,
                 lateral_m=seat.lateral_m,
                 way_xy_m=line_from(path, seat.arc_m) if free else (),
+                stop_s=stop_time_s(agent),
                 halt_xy_m=None if halts is None else path.position_at(halts)[:2],
                 release=ReleaseOn.NEVER if stays and not free else release.on,
                 release_uav=release.uav,
@@ -232,7 +230,7 @@ class PersonPlacer:
             return 'sidewalk'
         if not _goes(spec, agent):
             return placed
-        if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
+        if stops_for_good(agent):
             return placed
         way_m = (own_speed_mps(agent) or self._style.walking_mps) * run_s
         return self._onward(placed, way_m)
@@ -483,7 +481,7 @@ def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether a person is to leave its place at some time."""
     if crosses(spec, agent) or sets_off(spec.events, agent.id) is not None:
         return True
-    if _arrives(spec, agent):
+    if _arrives(spec, agent) or stands_first_s(agent) is not None:
         return True
     return bool(agent.behaviors) and not stands(agent)
 

@@ -16,7 +16,7 @@ from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.events import bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, counts_from_capture, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
-from aurora_core.spec.parking import stands
+from aurora_core.spec.parking import stands, stands_first_s
 from aurora_core.spec.scenario import (
     AgentAction,
     ArrivalTrigger,
@@ -121,7 +121,10 @@ def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
 
     Who is watched goes once the UAV that watches is ready: also who crosses where one hovers. Who
     is let pass goes when the vehicle that does so comes near, unless that waits for the person.
+    Who waits for a stated time is released by nothing else.
     """
+    if stands_first_s(agent) is not None:
+        return Release(on=ReleaseOn.NEVER)
     caused = any(
         isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
         for e in spec.events

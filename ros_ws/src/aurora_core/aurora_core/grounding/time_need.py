@@ -83,6 +83,8 @@ def horizon_s(spec: ScenarioSpec, limits: Limits, flight: FlightDefaults | None 
     flown_s = sum(by_uav.values()) if waits else max(by_uav.values(), default=0.0)
     events = (*spec.events, *own_events(spec))
     need = flown_s + latest + sum(_event_s(spec, e, up_and_down) for e in events)
+    lasting = (sum(b.duration_s.value for b in a.behaviors if b.duration_s) for a in spec.agents)
+    need += max(lasting, default=0.0)
     goes = any(has_point(b.target) for agent in spec.agents for b in agent.behaviors)
     need = max(need, up_and_down + _TRANSIT_S + _DRIVES_THERE_S) if goes else need
     need = max(limits.horizon_inferred_min_s, ceil(need)) + patience_s(spec)

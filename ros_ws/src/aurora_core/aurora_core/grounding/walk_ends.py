@@ -7,6 +7,7 @@ from __future__ import annotations
 from aurora_core.grounding.pace import stated_times_s
 from aurora_core.grounding.sites import SeatedPerson, Site
 from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.spec.parking import stops_for_good, stops_for_s
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind
 
@@ -18,6 +19,9 @@ NEXT_M = 1.0
 # goes so far in all: farther than shows that it does.
 _BEYOND_M = 6.0
 _WALKS_M = 24.0
+
+# Who walks and stops has walked so far (m).
+_STOP_AFTER_M = 15.0
 
 # Who walks up to a crosswalk to cross at a stated time is there so long before (s).
 _EARLY_S = 2.0
@@ -88,3 +92,19 @@ def halt_m(site: Site, seat: SeatedPerson, walks_m: float, network: RoadNetwork)
     ahead = [w for w in site.walkers if w.path.lane_id == path.lane_id and w.arc_m > seat.arc_m]
     end_m = network.lane(path.lane_id).arc_length_m - KERB_M - NEXT_M * len(ahead)
     return end_m if end_m > seat.arc_m else None
+
+
+def stopping_m(
+    seat: SeatedPerson, halts_m: float | None, ends_m: float
+) -> tuple[float | None, float]:
+    """Return where on its way a person stands for a while (m; None: nowhere), and where it ends.
+
+    Args:
+        seat: Of the one who walks.
+        halts_m: Where it waits anyway.
+        ends_m: Where the walk ends of who does not stop.
+    """
+    stop_m = seat.arc_m + _STOP_AFTER_M
+    if stops_for_s(seat.agent) is not None:
+        return min(stop_m, seat.path.length_m), ends_m
+    return halts_m, min(ends_m, stop_m) if stops_for_good(seat.agent) else ends_m

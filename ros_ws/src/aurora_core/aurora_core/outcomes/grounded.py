@@ -67,6 +67,7 @@ class GroundedAgent(Document):
         parked: Stands beside the traffic, right of its lane.
         stop_lane_id: Where it comes to a stop by itself, '' when it does not.
         stop_position_m: Arc length there of its reference point.
+        stop_s: How long it stands where it stops or halts; None: to the end, or until an event.
         runs_red: It drives on at a red light where nobody is in its way.
         lateral_m: Persons: so far left of the middle of the sidewalk.
         way_xy_m: Persons: their way over the street where no crosswalk is, ENU map frame.
@@ -106,6 +107,7 @@ class GroundedAgent(Document):
     parked: bool = omitted(False)
     stop_lane_id: str = omitted('')
     stop_position_m: FiniteFloat = omitted(0.0)
+    stop_s: FiniteFloat | None = omitted(None)
     gentle_mps2: FiniteFloat | None = omitted(None)
     runs_red: bool = omitted(False)
     lateral_m: FiniteFloat = omitted(0.0)

@@ -112,6 +112,7 @@ def _shared_speeds(scene: Scene) -> None:
             target=one.target,
             speed_mps=plain[0].speed_mps,
             closing_from_m=one.closing_from_m,
+            duration_s=one.duration_s or plain[0].duration_s,
             span=one.span,
         )
         entity.behaviors[:] = [whole]

@@ -333,7 +333,7 @@ def lasting(spec: ScenarioSpec) -> ScenarioSpec:
 
     "Keeps it in view for 60 s" cannot come true in a phase of 30 s, nor can a stretch without a
     break that is longer than its phase; who is to send a message 63 s after t = 0 does not land
-    before. Stated durations stay.
+    before; whoever drives for 60 s is tracked for as long. Stated durations stay.
 
     Args:
         spec: The request; it is not changed.
@@ -355,6 +355,13 @@ def lasting(spec: ScenarioSpec) -> ScenarioSpec:
             for mission in own[-1:]:
                 due_s = least_due_s(spec.events, event.id)
                 need[mission.id] = max(need.get(mission.id, 0.0), spare * due_s)
+    doing_s = {
+        a.id: sum(b.duration_s.value for b in a.behaviors if b.duration_s) for a in spec.agents
+    }
+    for mission in spec.missions:
+        asked_s = doing_s.get(mission.target or '', 0.0)
+        if mission.mode is MissionMode.TRACK and asked_s > 0.0:
+            need[mission.id] = max(need.get(mission.id, 0.0), spare * asked_s)
     if not need:
         return spec
     missions = tuple(_at_least(m, need.get(m.id, 0.0)) for m in spec.missions)

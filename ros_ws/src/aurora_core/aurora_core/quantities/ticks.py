@@ -40,9 +40,10 @@ def longest_stretch(mask: BoolArray) -> tuple[int, int] | None:
 
     Of equal ones it is the first.
     """
+    return max(stretches(mask), key=lambda one: one[1] - one[0], default=None)
+
+
+def stretches(mask: BoolArray) -> list[tuple[int, int]]:
+    """Return the stretches [start, stop) in which the mask is true."""
     edges = np.flatnonzero(np.diff(mask.astype(np.int8), prepend=0, append=0))
-    if len(edges) == 0:
-        return None
-    starts, stops = edges[::2], edges[1::2]
-    longest = int(np.argmax(stops - starts))
-    return int(starts[longest]), int(stops[longest])
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))

@@ -46,6 +46,8 @@ def limits_on(spec: dict[str, Any], path: str, *, above: bool) -> tuple[str, ...
         return ('uavs_max',) if element['kind'] == 'uav' else ('agents_max',)
     if kind == 'agents' and rest[1:2] == ['behaviors'] and rest[-1] == 'speed_mps':
         return _of_agent(spec, element['id'])
+    if kind == 'agents' and rest[1:2] == ['behaviors'] and rest[-1] == 'duration_s':
+        return ('duration_s',) if above else ()
     if kind == 'events':
         return _of_event(spec, element, field)
     if kind == 'conditions' and field == 'value':

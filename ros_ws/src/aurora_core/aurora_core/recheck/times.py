@@ -302,3 +302,10 @@ def _whole(request: Request) -> Iterator[Derived]:
         for event in request.all('events'):
             of = f'events/{event["id"]}'
             yield Derived(Kind.INSIDE, of, of, 'end', 0.0)
+        for agent in request.all('agents'):
+            for number, behavior in enumerate(agent.get('behaviors', ())):
+                of = f'agents/{agent["id"]}/behaviors/{number}'
+                if stated(behavior.get('duration_s')):
+                    shortest, _ = _seconds(request, behavior['duration_s'])
+                    yield Derived(Kind.PHASE, of, 'start', of, shortest)
+                    yield Derived(Kind.INSIDE, of, of, 'end', 0.0)

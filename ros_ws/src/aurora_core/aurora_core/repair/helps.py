@@ -147,6 +147,7 @@ HELPS: Mapping[str, tuple[Help, ...]] = MappingProxyType(
         Q.TIME_HEADWAY: _DRIVEN,
         Q.TIME_TO_COLLISION: _DRIVEN,
         Q.OVER_LIMIT: _DRIVEN,
+        Q.BEHAVIOR_TIME: _DRIVEN,
         Q.DISTANCE_TRAVELLED: _DRIVEN,
         Q.PLACEMENT: (_place(3.0, 'nobody can stand so there'), *_DRIVEN[1:]),
         Q.RELATION_FRACTION: _DRIVEN,

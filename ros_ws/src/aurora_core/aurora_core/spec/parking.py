@@ -5,8 +5,12 @@
 from __future__ import annotations
 
 from aurora_core.spec.events import ArrivalTrigger
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation
+
+# Inside a stated bound on a time this much is aimed at (s), but no less than half of it.
+_INSIDE_S = 1.0
 
 _GOES_THERE = frozenset({BehaviorKind.DRIVE, BehaviorKind.EMERGENCY_RUN})
 
@@ -36,12 +40,50 @@ def parks(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     moved = any(
         isinstance(e.action, AgentAction) and e.action.agent == agent.id for e in spec.events
     )
-    later = parks_after(spec, agent) is not None
+    later = parks_after(spec, agent) is not None or stands_first_s(agent) is not None
     return told and not moved and not later and not any(b.kind in _MOVES for b in agent.behaviors)
 
 
 def stands(agent: GroundAgent) -> bool:
-    """Tell whether an agent is to stand all along, unless an event sets it off."""
-    return any(b.kind in _STILL for b in agent.behaviors) and not any(
-        b.kind in _MOVES for b in agent.behaviors
+    """Tell whether an agent stands at t = 0, until its time is over or an event sets it off."""
+    moves = any(b.kind in _MOVES for b in agent.behaviors)
+    still = any(b.kind in _STILL for b in agent.behaviors)
+    return stands_first_s(agent) is not None or (still and not moves)
+
+
+def stands_first_s(agent: GroundAgent) -> Parameter | None:
+    """Return for how long an agent stands before it sets off; None where nobody says."""
+    goes = any(b.kind in _GOES_THERE for b in agent.behaviors)
+    return next(
+        (
+            b.duration_s
+            for b in agent.behaviors
+            if b.duration_s is not None
+            and (b.kind is BehaviorKind.WAIT or (b.kind is BehaviorKind.PARK and not goes))
+        ),
+        None,
     )
+
+
+def stops_for_s(agent: GroundAgent) -> Parameter | None:
+    """Return how long an agent stands where it stops or parks on its way; None: to the end."""
+    first = stands_first_s(agent)
+    stopping = (BehaviorKind.STOP, BehaviorKind.PARK)
+    lasting = (b.duration_s for b in agent.behaviors if b.kind in stopping)
+    return next((s for s in lasting if s is not None and s is not first), None)
+
+
+def stands_s(stated: Parameter) -> float:
+    """Return for how long somebody stands who is asked to do so, seconds."""
+    return max(stated.inside(_INSIDE_S), stated.value / 2.0)
+
+
+def stop_time_s(agent: GroundAgent) -> float | None:
+    """Return how long an agent stands by plan where it stops on its way; None: to the end."""
+    stated = stops_for_s(agent)
+    return None if stated is None else stands_s(stated)
+
+
+def stops_for_good(agent: GroundAgent) -> bool:
+    """Tell whether an agent stops on its way and stays where it does."""
+    return any(b.kind is BehaviorKind.STOP and b.duration_s is None for b in agent.behaviors)

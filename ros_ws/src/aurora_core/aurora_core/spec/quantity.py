@@ -48,6 +48,7 @@ class QuantityName(StrEnum):
     LANE_CHANGE = 'lane_change'
     YIELDING = 'yielding'
     OVER_LIMIT = 'over_limit'
+    BEHAVIOR_TIME = 'behavior_time'
     DISTANCE_TRAVELLED = 'distance_travelled'
     EVENT_DELAY = 'event_delay'
     SENT_AFTER_CAPTURE = 'sent_after_capture'

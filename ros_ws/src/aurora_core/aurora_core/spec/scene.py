@@ -13,6 +13,8 @@ from aurora_core.spec.parameter import Bound, Element, Parameter, Provenance, Sp
 from aurora_core.spec.reference import Id, PlaceRef
 from aurora_core.spec.seed import Seed
 from aurora_core.spec.vocabulary import (
+    MOVING,
+    STANDING,
     AgentType,
     BehaviorKind,
     LaneSide,
@@ -119,6 +121,8 @@ class Behavior(Element):
             closing starts.
         headway_s: Follow or tailgate: bumper gap to the target divided by one's own speed.
         side: Of the lane that is changed to.
+        duration_s: How long it does so: who stands drives on then, of the others nobody says that
+            it ends.
     """
 
     kind: BehaviorKind
@@ -128,6 +132,7 @@ class Behavior(Element):
     closing_from_m: Parameter | None = None
     headway_s: Parameter | None = omitted(None)
     side: LaneSide | None = omitted(None)
+    duration_s: Parameter | None = omitted(None)
     span: Span | None = None
 
     @model_validator(mode='after')
@@ -137,6 +142,19 @@ class Behavior(Element):
         if self.headway_s is not None and self.kind not in KEEPS_HEADWAY:
             raise ValueError(f'a headway belongs to following, found it with {self.kind}')
         return self
+
+    @model_validator(mode='after')
+    def _duration_is_of_what_lasts(self) -> Self:
+        duration = self.duration_s
+        if duration is not None and not lasts(self.kind, duration.bound):
+            raise ValueError(f'{self.kind} lasts for no time, {duration.bound} {duration.value} s')
+        return self
+
+
+def lasts(kind: BehaviorKind, bound: Bound) -> bool:
+    """Tell whether somebody does something for a time; that motion ends nobody sees to."""
+    goes_on = kind in MOVING or kind is BehaviorKind.TAILGATE
+    return kind in STANDING or (goes_on and bound is not Bound.AT_MOST)
 
 
 class GroundAgent(Element):

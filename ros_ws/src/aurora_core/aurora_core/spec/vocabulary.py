@@ -105,6 +105,19 @@ class BehaviorKind(StrEnum):
     EMERGENCY_RUN = 'emergency_run'
 
 
+# What somebody does for some time: standing, moving, or close behind somebody.
+STANDING = frozenset({BehaviorKind.STOP, BehaviorKind.WAIT, BehaviorKind.PARK})
+MOVING = frozenset(
+    {
+        BehaviorKind.DRIVE,
+        BehaviorKind.WALK,
+        BehaviorKind.CIRCULATE,
+        BehaviorKind.FOLLOW,
+        BehaviorKind.EMERGENCY_RUN,
+    }
+)
+
+
 class MissionMode(StrEnum):
     HOVER = 'hover'
     TRACK = 'track'

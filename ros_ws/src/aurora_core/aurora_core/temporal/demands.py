@@ -36,6 +36,7 @@ def demands(basis: Basis) -> Iterator[Demand]:
         inside = inside_links(basis)
         # A flight of which nobody says how long it is may end in the air.
         yield from ((a,) for a in inside if a.of in long or a.of.startswith('events/'))
+        yield from _doings(basis)
     yield from ((link,) for link in battery_links(basis))
 
 
@@ -67,6 +68,37 @@ def inside_links(basis: Basis) -> Iterator[Link]:
             of=of,
             words=f'{of.partition("/")[2]} is done before the end',
         )
+
+
+def _doings(basis: Basis) -> Iterator[Demand]:
+    """Yield that what agents do for a stated time is done before the end."""
+    for agent in basis.spec.agents:
+        for number, behavior in enumerate(agent.behaviors):
+            if behavior.duration_s is None:
+                continue
+            of = f'agents/{agent.id}/behaviors/{number}'
+            least_s, _ = basis.window_s(behavior.duration_s)
+            what = f'{agent.id} is to {behavior.kind.value.replace("_", " ")}'
+            yield (
+                Link(
+                    earlier=START,
+                    later=of,
+                    least_s=least_s,
+                    kind=BoundKind.PHASE,
+                    of=of,
+                    words=f'{what} for {least_s:g} s at least',
+                    stated=((f'{of}/duration_s', behavior.duration_s),),
+                    tolerances=('duration_s',),
+                ),
+                Link(
+                    earlier=of,
+                    later=END,
+                    least_s=0.0,
+                    kind=BoundKind.INSIDE,
+                    of=of,
+                    words=f'{of.partition("/")[2]} is done before the end',
+                ),
+            )
 
 
 def _order(basis: Basis, order: Order) -> Iterator[Link]:

@@ -78,6 +78,7 @@ class Stage:
         releases: When each may start, as (release, UAV); START where not given.
         parted: Who waits until whom is how far away (m).
         halts: Where persons wait who have walked there to cross; all of them are persons then.
+        stops_s: How long who halts stands there.
         tracks: UAV id -> target of its one mission, '' = no mission at all.
         links: UAV or agent pairs with a link.
         hold_s: Length of the track missions.
@@ -94,6 +95,7 @@ class Stage:
     releases: dict[str, tuple[ReleaseOn, str]] = field(default_factory=dict)
     parted: dict[str, tuple[str, float]] = field(default_factory=dict)
     halts: dict[str, tuple[float, float]] = field(default_factory=dict)
+    stops_s: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
     tracks: dict[str, str] = field(default_factory=lambda: {'uav1': 'van1'})
     links: tuple[tuple[str, str], ...] = ()
@@ -247,6 +249,7 @@ class Stage:
             release_mission=f'm{list(self.tracks).index(uav)}' if uav else '',
             drive_speed_mps=self.speeds.get(agent),
             halt_xy_m=self.halts.get(agent),
+            stop_s=self.stops_s.get(agent),
         )
 
     def _uav_plans(self) -> list[UavPlan]:

@@ -99,6 +99,12 @@ def _event(**parts: Any) -> ScenarioSpec:
     )
 
 
+def _lasting(duration: Parameter) -> ScenarioSpec:
+    waits = Behavior(kind=BehaviorKind.WAIT, duration_s=duration)
+    agent = GroundAgent(id='a1', type=AgentType.CAR, behaviors=(waits,))
+    return ScenarioSpec(prompt='x', agents=(agent,))
+
+
 # name -> (builds a specification from the parameter, unit, low, high, reason, path)
 PLACES: dict[str, tuple[Callable[[Make, Parameter], ScenarioSpec], str, Any, Any, str, str]] = {
     'altitude': (
@@ -123,6 +129,10 @@ PLACES: dict[str, tuple[Callable[[Make, Parameter], ScenarioSpec], str, Any, Any
     'pedestrian': (
         lambda _make, p: _agent(AgentType.PEDESTRIAN, p),
         'm/s', 0.0, 3.0, 'speed_limit', 'agents/a1/behaviors/0/speed_mps',
+    ),
+    'duration of a behaviour': (
+        lambda _make, p: _lasting(p),
+        's', None, 1800.0, 'duration', 'agents/a1/behaviors/0/duration_s',
     ),
     'horizon': (
         lambda _make, p: ScenarioSpec(prompt='x', world=World(duration_s=p)),

@@ -213,6 +213,10 @@ def _between(delay_s: float) -> Part:
     }
 
 
+def _drives(duration_s: float) -> Part:
+    return {'type': 'car', 'behaviors': [{'kind': 'drive', 'duration_s': seconds(duration_s)}]}
+
+
 _TWO = [at(10.0), at(30.0, action=brakes('car2'))]
 _HEARD = {'on': 'message_received', 'by': 'car1'}
 
@@ -232,6 +236,14 @@ PAIRS = (
         'events/e1',
         {'events': [at(30.0)], 'world': lasting(29.3)},
         {'events': [at(30.0)], 'world': lasting(29.5)},
+    ),
+    _pair(
+        # 20 s may be 19.5 s
+        'a drive in a short scenario',
+        Rule.HORIZON,
+        'agents/a1/behaviors/0',
+        {'agents': [_drives(20.0)], 'world': lasting(19.4)},
+        {'agents': [_drives(20.0)], 'world': lasting(19.6)},
     ),
     _pair(
         # 38 m up 7.6 s, 37.7 m down 12.567 s, and 49 s or 39.2 s

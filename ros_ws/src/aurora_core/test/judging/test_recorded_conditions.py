@@ -38,13 +38,12 @@ def _recorded(quantity: str, aspect: str) -> dict[str, Any]:
 # Kinds that there were not when the conditions were recorded.
 SINCE = {
     'angle_swept', 'at_place', 'battery', 'braking_deceleration', 'clearance',
-    'climb_after_phase', 'climb_delay', 'event_climb_rate', 'gust_speed', 'vertical_speed',
-    'delivered_at', 'distance_fraction', 'done_delay', 'driver_waits', 'hardest_braking',
-    'lane_kept_after',
-    'longest_standstill', 'never_delivered', 'never_sent', 'outage', 'phase_after_event',
-    'report_gap', 'report_latency', 'return_distance', 'side_fraction', 'speed_once_there',
-    'time_headway', 'time_to_collision', 'traffic', 'undone',
-    'wind_course', 'wind_from', 'wind_speed',
+    'climb_after_phase', 'climb_delay', 'delivered_at', 'distance_fraction', 'done_delay',
+    'driver_waits', 'event_climb_rate', 'gust_speed', 'hardest_braking', 'lane_kept_after',
+    'longest_standstill', 'motion_time', 'never_delivered', 'never_sent', 'outage',
+    'phase_after_event', 'report_gap', 'report_latency', 'return_distance', 'side_fraction',
+    'speed_once_there', 'standing_time', 'time_headway', 'time_to_collision', 'traffic', 'undone',
+    'vertical_speed', 'wind_course', 'wind_from', 'wind_speed',
 }  # fmt: skip
 
 

@@ -70,6 +70,8 @@ def _agent(agent: GroundAgent) -> str:
             words.append(f'{_p(behavior.headway_s)} s')
         if behavior.side is not None:
             words.append(f'to the {behavior.side.value}')
+        if behavior.duration_s is not None:
+            words.append(f'for {_p(behavior.duration_s)}')
         parts.append(f'{behavior.kind.value}({" ".join(words)})')
     return ' '.join(parts)
 

@@ -9,7 +9,13 @@ from typing import Literal
 import numpy as np
 from pydantic import FiniteFloat
 
-from aurora_core.judging.evaluation import Context, Evaluation, Missing, ground_topics
+from aurora_core.judging.evaluation import (
+    BoolArray,
+    Context,
+    Evaluation,
+    Missing,
+    ground_topics,
+)
 from aurora_core.judging.quantity import Quantity
 from aurora_core.judging.shares import share_of
 from aurora_core.outcomes.condition import Condition, Window
@@ -46,6 +52,13 @@ class FollowFraction(Quantity):
         ticks = context.window(condition, self.after_s)
         if isinstance(ticks, Missing):
             return ticks
+        a, b = condition.of
+        _, good = self.samples(context, condition)
+        topics, gap_m = ground_topics(condition), context.along(a, b).gap_m
+        return share_of(context, ticks, good, gap_m, f'{a} followed {b}', topics)
+
+    def samples(self, context: Context, condition: Condition) -> tuple[BoolArray, BoolArray]:
+        """Return which samples of the run count, that is all of them, and which are good."""
         view = context.view
         a, b = condition.of
         along = context.along(a, b)
@@ -54,5 +67,4 @@ class FollowFraction(Quantity):
         high = np.where(moving, self.high_m, self.slow_high_m)
         good = (along.gap_m >= low) & (along.gap_m <= high)
         good &= (along.offset_m <= self.offset_m) & view.present(a) & view.present(b)
-        topics = ground_topics(condition)
-        return share_of(context, ticks, good, along.gap_m, f'{a} followed {b}', topics)
+        return np.ones(len(good), dtype=np.bool_), good

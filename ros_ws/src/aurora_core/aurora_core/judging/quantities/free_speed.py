@@ -8,6 +8,7 @@ from abc import abstractmethod
 from math import inf
 from typing import Literal
 
+import numpy as np
 from pydantic import FiniteFloat
 
 from aurora_core.document import omitted
@@ -95,6 +96,13 @@ class _KeptSpeed(Quantity):
         topics = tuple(f'state[{name}]' for name in condition.of)
         good = self.speed.good(values)
         return share_of(context, ticks, good, values, what, topics, growing=growing)
+
+    def samples(self, context: Context, condition: Condition) -> tuple[BoolArray, BoolArray]:
+        """Return which samples of the run count, and which are good; none once told otherwise."""
+        values = motion.speed(context.view, context.view.body(condition.of[0]))
+        counted, _, _ = self.free(context, condition, values)
+        until = np.arange(len(values)) < _told_otherwise(context, condition.of)
+        return counted | ~until, self.speed.good(values) & until
 
 
 def _told_otherwise(context: Context, of: tuple[str, ...]) -> int:

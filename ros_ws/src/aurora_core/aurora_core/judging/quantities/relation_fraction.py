@@ -101,24 +101,35 @@ class DistanceFraction(Quantity):
         ticks = context.window(condition)
         if isinstance(ticks, Missing):
             return ticks
-        if self.moving_mps is not None:
-            leader = condition.of[0 if self.relation is Relation.AHEAD else 1]
-            speed = motion.speed(context.view, context.view.body(leader))
-            ticks = ticks[speed[ticks] > self.moving_mps]
-            if not len(ticks):
-                if not context.complete(condition):
-                    return context.short(condition)
-                story = f'{leader} was never faster than {number(self.moving_mps)} m/s'
-                return Missing(reason=Reason.PREMISE_NEVER, story=story)
+        counted, good = self.samples(context, condition)
+        ticks = ticks[counted[ticks]]
+        if self.moving_mps is not None and not len(ticks):
+            if not context.complete(condition):
+                return context.short(condition)
+            story = (
+                f'{self._leader(condition)} was never faster than {number(self.moving_mps)} m/s'
+            )
+            return Missing(reason=Reason.PREMISE_NEVER, story=story)
         values = placed_distance_m(context, condition, self.relation)
-        good = np.ones(len(values), dtype=np.bool_)
-        if self.low_m is not None:
-            good &= values >= self.low_m
-        if self.high_m is not None:
-            good &= values <= self.high_m
         a, b = condition.of
         what = f'{a} kept its distance from {b}'
         return _share(context, condition, ticks, good, values, what)
+
+    def samples(self, context: Context, condition: Condition) -> tuple[BoolArray, BoolArray]:
+        """Return which samples of the run count, and which are good."""
+        values = placed_distance_m(context, condition, self.relation)
+        counted = good = np.ones(len(values), dtype=np.bool_)
+        if self.moving_mps is not None:
+            leader = context.view.body(self._leader(condition))
+            counted = motion.speed(context.view, leader) > self.moving_mps
+        if self.low_m is not None:
+            good = good & (values >= self.low_m)
+        if self.high_m is not None:
+            good = good & (values <= self.high_m)
+        return counted, good
+
+    def _leader(self, condition: Condition) -> str:
+        return condition.of[0 if self.relation is Relation.AHEAD else 1]
 
 
 class BearingFraction(OfMission):

@@ -23,7 +23,7 @@ from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Behavior, Placement
-from aurora_core.spec.scene import KEEPS_HEADWAY
+from aurora_core.spec.scene import KEEPS_HEADWAY, lasts
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation
 
 # Predicates that name a behaviour in other words.
@@ -109,6 +109,7 @@ def behavior(frame: Frame) -> bool:
     target = _target(frame, subjects)
     _tracked_for(frame, subjects)
     speed = speed_of(frame)
+    duration = _duration(frame, kind)
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
     if kind is BehaviorKind.OVERTAKE and not _overtakes(frame, target):
         kind = BehaviorKind.DRIVE  # `a bus goes past at 20 km/h`
@@ -127,6 +128,7 @@ def behavior(frame: Frame) -> bool:
         closing_from_m=closing,
         headway_s=None if kept is None else values.explicit('headway', kept),
         side=side,
+        duration_s=duration,
         span=frame.span,
     )
     if kind is BehaviorKind.CIRCULATE:
@@ -169,6 +171,18 @@ def _tracked_for(frame: Frame, subjects: tuple[Entity, ...]) -> None:
         draft.duration = values.explicit('mission_duration', adjunct.measure)
 
 
+def _duration(frame: Frame, kind: BehaviorKind) -> Parameter | None:
+    """`stops for 15 s`, `rides for at least 40 s`: how long it does so."""
+    adjunct = frame.time('for')
+    if adjunct is None or adjunct.measure is None:
+        return None
+    measure = adjunct.measure
+    if not values.accepts('behavior_duration', measure) or not lasts(kind, measure.bound):
+        return None
+    adjunct.used = True
+    return values.explicit('behavior_duration', measure)
+
+
 def _goes_at(frame: Frame) -> bool:
     """`the car does 50 mph`, `a jogger runs along the pavement`: moving, not carrying out."""
     if frame.has_mark(AtomKind.PATTERN.value) or frame.has_mark(AtomKind.ROUTE.value):
@@ -199,6 +213,7 @@ def add_behavior(entity: Entity, made: Behavior, placements: tuple[Placement, ..
     for i, known in enumerate(entity.behaviors):
         same = known.kind is made.kind and (known.target == made.target or made.target is None)
         same = same and (known.side is made.side or None in (known.side, made.side))
+        same = same and None in (known.duration_s, made.duration_s)
         if same and (known.speed_mps is None or made.speed_mps is None):
             entity.behaviors[i] = Behavior(
                 kind=known.kind,
@@ -207,6 +222,7 @@ def add_behavior(entity: Entity, made: Behavior, placements: tuple[Placement, ..
                 closing_from_m=known.closing_from_m or made.closing_from_m,
                 headway_s=known.headway_s or made.headway_s,
                 side=known.side or made.side,
+                duration_s=known.duration_s or made.duration_s,
                 span=known.span,
             )
             break
@@ -334,13 +350,7 @@ def _closing(frame: Frame, subjects: tuple[Entity, ...]) -> bool:
     distance = _closing_distance(frame)
     if distance is None:
         return False
-    behaviors[-1] = Behavior(
-        kind=last.kind,
-        target=last.target,
-        speed_mps=last.speed_mps,
-        closing_from_m=distance,
-        span=last.span,
-    )
+    behaviors[-1] = last.model_copy(update={'closing_from_m': distance})
     if last.target is not None:
         add_placement(
             subjects[0],

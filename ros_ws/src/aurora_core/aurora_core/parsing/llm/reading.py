@@ -78,6 +78,7 @@ class BehaviorReading(Document):
     closing_from_m: Number | None = None
     headway_s: Number | None = None
     side: LaneSide | None = None
+    duration_s: Number | None = None
     quote: Quote
 
 

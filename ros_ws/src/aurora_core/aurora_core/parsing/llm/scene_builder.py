@@ -37,7 +37,7 @@ from aurora_core.spec.prohibitions import (
     Prohibition,
 )
 from aurora_core.spec.scenario import Behavior, Placement, SceneCount
-from aurora_core.spec.scene import KEEPS_HEADWAY
+from aurora_core.spec.scene import KEEPS_HEADWAY, lasts
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
@@ -239,6 +239,10 @@ def _add_behavior(entity: Entity, said: BehaviorReading, where: str, parts: Part
     if headway is not None and said.kind not in KEEPS_HEADWAY:
         parts.complaints.append(f'{where}.headway_s: only who follows or tailgates has one')
         headway = None
+    lasting = parts.number('behavior_duration', said.duration_s, f'{where}.duration_s')
+    if lasting is not None and not lasts(said.kind, lasting.bound):
+        parts.complaints.append(f'{where}.duration_s: nobody does that for a time')
+        lasting = None
     made = Behavior(
         kind=said.kind,
         target=parts.ref_or_none(said.target),
@@ -246,6 +250,7 @@ def _add_behavior(entity: Entity, said: BehaviorReading, where: str, parts: Part
         closing_from_m=closing,
         headway_s=headway,
         side=said.side if said.kind is BehaviorKind.CHANGE_LANE else None,
+        duration_s=lasting,
         span=parts.span(said.quote, where),
     )
     if made.target == entity.id:

@@ -155,8 +155,9 @@ def _vehicle(agent: GroundedAgent, network: RoadNetwork, wait_s: float) -> Eleme
             parking='true' if agent.parked else 'false', friendlyPos='true',
         )  # fmt: skip
     if agent.stop_lane_id:
+        stands_s = _LONG_S if agent.stop_s is None else agent.stop_s
         SubElement(
-            made, 'stop', lane=agent.stop_lane_id, duration=f'{_LONG_S:g}', friendlyPos='true',
+            made, 'stop', lane=agent.stop_lane_id, duration=f'{stands_s:g}', friendlyPos='true',
             endPos=f'{agent.stop_position_m + agent.length_m / 2.0:.2f}',
         )  # fmt: skip
     return made
