@@ -15,6 +15,7 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
+from aurora_core.feasibility.quotes import unread_spans
 from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Building, Landmark, NoFlyZone
@@ -22,7 +23,7 @@ from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec, UavAction, UavMission
 from aurora_core.spec.stated import is_stated, least, most
-from aurora_core.spec.vocabulary import ClauseStatus, MissionMode, Pattern
+from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 # Corners of the polygons that stand for circles.
 _STEP_DEG = 1.0
@@ -143,13 +144,10 @@ def roof_reach_m(mark: Landmark, buildings: Sequence[Building]) -> float:
 
 def is_half_read(spec: ScenarioSpec, mission: UavMission) -> bool:
     """Return whether words that may say where a flight is were not read."""
+    at = mission.span
     return any(
-        clause.status is ClauseStatus.NOT_ENCODED
-        and (
-            mission.span is None
-            or (clause.span.start < mission.span.end and mission.span.start < clause.span.end)
-        )
-        for clause in spec.clauses
+        at is None or (words.start < at.end and at.start < words.end)
+        for words in unread_spans(spec)
     )
 
 
