@@ -152,7 +152,7 @@ def _checks(
         numbers,
         lambda spec: check_sight(spec, map_model, limits, tolerances),
         lambda spec: check_radio(spec, limits, tolerances),
-        lambda spec: check_geometry(spec, limits, tolerances),
+        lambda spec: check_geometry(spec, map_model, limits, tolerances),
         lambda spec: check_pursuit(spec, limits, tolerances),
         lambda spec: check_bounds(spec, limits, tolerances),
         check_scene,

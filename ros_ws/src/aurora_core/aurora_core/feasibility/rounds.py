@@ -28,8 +28,9 @@ import shapely
 from aurora_core.feasibility.certificates import beyond
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
 from aurora_core.feasibility.zones import is_half_read, is_redirected, roof_of
-from aurora_core.knowledge.limits import Limits, Tolerances, part_of_lap_deg
+from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Building, Landmark
+from aurora_core.mission.orbits import part_of_lap_deg
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.quantities.waypoints import ORBIT_STEP_DEG
 from aurora_core.spec.parameter import Bound

@@ -23,10 +23,11 @@ from aurora_core.spec.scenario import StatedCondition
 
 _OF_HEIGHT = re.compile(r'\b(altitude|height|elevation|agl|above (?:the )?ground|flight level)\b')
 _BETWEEN = re.compile(
-    r'\b(?:(?:from|of|to) (?:(?:it|they|any|each|every|other|no) )*N\d|between|apart|closer|'
-    r'nearer|away|distance|gap|spacing|clearance|separation|headway|near|together|leave|'
-    r'(?:each |one an)other\b)'
+    r'\b(?:(?:from|of|to) (?:(?:(?:it|they|any|each|every|other|no) )*N\d|each other|one another)|'
+    r'between|apart|closer|nearer|away|distance|gap|spacing|clearance|separation|headway|near|'
+    r'together|leave)'
 )
+_MUTUAL = re.compile(r'\b(?:each other|one another)\b')
 _VERTICAL = re.compile(
     r'\b(?:above|below|under|over|beneath|underneath|higher|lower|exceed\w*|rise|climb|descend)\b'
 )
@@ -183,7 +184,7 @@ class Meaning:
         """`all UAVs must stay above 20 m` is about heights, `… more than 20 m apart` is not."""
         told = self._told
         up = 'altitude' in told.topics or _VERTICAL.search(told.words) is not None
-        apart = _BETWEEN.search(told.words)
+        apart = _BETWEEN.search(told.words) or _MUTUAL.search(told.words)
         return up and 'pairs' not in told.topics and not apart
 
     def _is_cut_off(self) -> bool:

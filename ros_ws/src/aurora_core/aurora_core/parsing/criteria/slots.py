@@ -162,6 +162,8 @@ class _Reading:
             limits, share = self._meant(limits, share)
         if limits is None or len({limit.dimension for limit in limits}) > 1:
             return None
+        if negated and by is not None and limits and limits[0].dimension in 'LV':
+            return None  # `must not exceed 10 m/s within 20 s`: not at any moment of these
         if not limits and share is None and hold is None:
             plain = by is not None or words['musts'].search(self._begin)
             if (
