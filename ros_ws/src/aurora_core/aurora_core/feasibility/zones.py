@@ -29,7 +29,7 @@ from aurora_core.spec.vocabulary import MissionMode, Pattern
 _STEP_DEG = 1.0
 _ROUNDING_M = 1e-6
 # A landmark so near to a building stands in it.
-_BESIDE_M = 1.0
+BESIDE_M = 1.0
 
 
 def check_zones(
@@ -61,8 +61,10 @@ def check_zones(
         high = most(stated, slack, limits.uav_altitude_max_m)
         for zone in zones:
             is_level = zone.floor_m <= low and high <= zone.ceiling_m
+            if not is_level:
+                continue
             roof = roof_of(mark, buildings)
-            if is_level and _enters(mission, mark, zone, limits, tolerances, roof):
+            if _enters(mission, mark, zone, limits, tolerances, roof):
                 yield Certificate(
                     kind='geometric_contradiction',
                     reason='geofence',
@@ -125,11 +127,11 @@ def is_over(mission: UavMission) -> bool:
 def roof_of(mark: Landmark, buildings: Sequence[Building]) -> shapely.Geometry | None:
     """Return the outline of the buildings that a landmark stands in, None in the open."""
     point = shapely.Point(mark.x_m, mark.y_m)
-    near = (b for b in buildings if b.has_in_box(mark.x_m, mark.y_m, _BESIDE_M))
+    near = (b for b in buildings if b.has_in_box(mark.x_m, mark.y_m, BESIDE_M))
     found = [
         outline
         for outline in (shapely.Polygon(b.ring) for b in near)
-        if outline.distance(point) <= _BESIDE_M
+        if outline.distance(point) <= BESIDE_M
     ]
     return shapely.union_all(found) if found else None
 
