@@ -20,7 +20,8 @@ from aurora_core.judging.quantities import (
     route_speed,
     waypoints_visited,
 )
-from aurora_core.knowledge.limits import part_of_lap_deg, pattern_off_m
+from aurora_core.knowledge.limits import pattern_off_m
+from aurora_core.mission.orbits import part_of_lap_deg
 from aurora_core.outcomes.condition import Condition, MissionArguments, Point3
 from aurora_core.quantities.waypoints import arc_centre, extent, has_shape, orbit_radius_m
 from aurora_core.spec.parameter import Bound, Parameter, Provenance

@@ -15,7 +15,7 @@ from aurora_core.feasibility.mends import Check, Mends
 from aurora_core.feasibility.operands import operands_fit
 from aurora_core.feasibility.places import check_placements
 from aurora_core.feasibility.pursuit import check_pursuit
-from aurora_core.feasibility.quotes import rests_on_unread, with_clauses
+from aurora_core.feasibility.quotes import rests_on_unread, unread_spans, with_clauses
 from aurora_core.feasibility.radio import check_radio
 from aurora_core.feasibility.roofs import check_roofs, check_walls
 from aurora_core.feasibility.rounds import check_rounds
@@ -152,7 +152,7 @@ def _checks(
         numbers,
         lambda spec: check_sight(spec, map_model, limits, tolerances),
         lambda spec: check_radio(spec, limits, tolerances),
-        lambda spec: check_geometry(spec, limits, tolerances),
+        lambda spec: check_geometry(spec, map_model, limits, tolerances),
         lambda spec: check_pursuit(spec, limits, tolerances),
         lambda spec: check_bounds(spec, limits, tolerances),
         check_scene,
@@ -178,7 +178,7 @@ def _half_read(spec: ScenarioSpec, certificate: Certificate) -> bool:
     at = certificate.span
     if at is None:
         return False
-    unread = [c.span for c in spec.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    unread = list(unread_spans(spec))
     clauses = [c.span for c in spec.clauses if c.status is ClauseStatus.ENCODED]
     around = [c for c in clauses if c.start <= at.start and at.end <= c.end]
     return any(c.start <= u.start and u.end <= c.end for c in around for u in unread)

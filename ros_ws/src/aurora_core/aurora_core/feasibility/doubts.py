@@ -74,7 +74,7 @@ def doubts(
     strained = (
         *check_sight(spec, map_model, close, exact),
         *check_radio(spec, close, exact),
-        *check_geometry(spec, close, exact),
+        *check_geometry(spec, map_model, close, exact),
         *check_times(spec, limits, exact, map_model),
         *check_rounds(spec, map_model.buildings, map_model.landmarks, close, exact),
     )

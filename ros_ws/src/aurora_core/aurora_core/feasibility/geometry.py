@@ -14,7 +14,9 @@ from dataclasses import dataclass
 from aurora_core.feasibility.certificates import beyond, contradiction, told
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
 from aurora_core.feasibility.operands import AT_LEAST, AT_MOST, SLOWING, in_parts, whole
+from aurora_core.feasibility.spots import Spots
 from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
@@ -155,12 +157,12 @@ def altitude_changes(spec: ScenarioSpec) -> dict[str, dict[str, Parameter]]:
 
 
 def check_geometry(
-    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
+    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
 ) -> Iterator[Certificate]:
     """Return what separation and stated distances rule out."""
-    geometry = Geometry(spec, limits, tolerances)
+    spots = Spots(spec, map_model, limits, tolerances)
     yield from _separation(spec, limits)
-    yield from _stated_distances(spec, limits, tolerances, geometry)
+    yield from _stated_distances(spec, limits, tolerances, spots)
     yield from _tracked_from_afar(spec, limits)
 
 
@@ -237,12 +239,13 @@ def _widest_m(one: Parameter, other: Parameter) -> float:
 
 
 def _stated_distances(
-    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances, geometry: Geometry
+    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances, spots: Spots
 ) -> Iterator[Certificate]:
     """A stated condition that no phase of the stated flight, and no stated drive, can meet.
 
     Of several phases one may be meant.
     """
+    geometry = Geometry(spec, limits, tolerances)
     for condition in spec.conditions:
         if not (whole(condition) and is_stated(condition.value)):
             continue
@@ -250,7 +253,7 @@ def _stated_distances(
         in_air = limits.uav_altitude_min_m <= value <= limits.uav_altitude_max_m
         if condition.quantity == QuantityName.ALTITUDE and not in_air:
             continue  # told of as a number beyond a limit
-        bands = [*_flown(spec, condition, geometry), *_driven(spec, condition, tolerances)]
+        bands = [*_flown(spec, condition, geometry, spots), *_driven(spec, condition, tolerances)]
         outside = [
             (condition.op in AT_MOST and band.low > value)
             or (condition.op in AT_LEAST and band.high < value)
@@ -284,39 +287,56 @@ class _Band:
     facts: tuple[Fact, ...]
 
 
-def _flown(spec: ScenarioSpec, condition: StatedCondition, geometry: Geometry) -> Iterator[_Band]:
+def _flown(
+    spec: ScenarioSpec, condition: StatedCondition, geometry: Geometry, spots: Spots
+) -> Iterator[_Band]:
     """Yield what each phase gives that a condition may be about."""
-    for mission in spec.missions:
-        band = _band(spec, condition, mission, geometry)
-        if band is not None:
-            facts = geometry.facts(mission)
-            if condition.quantity == QuantityName.SPEED:
-                facts = geometry.speed_facts(mission)
-            yield _Band(f'the flight of {mission.uav}', *band, facts)
+    for mission in (m for m in spec.missions if m.uav in condition.of):
+        others = [name for name in condition.of if name != mission.uav]
+        if condition.quantity == QuantityName.ALTITUDE:
+            band, facts = geometry.altitude(mission), geometry.facts(mission)
+        elif condition.quantity == QuantityName.SPEED:
+            speed = None if in_parts(spec, condition.of) else geometry.speed(mission)
+            if speed is None:
+                continue
+            band, facts = speed, geometry.speed_facts(mission)
+        elif len(others) == 1:
+            between = _between(spec, condition.quantity, mission, others[0], geometry, spots)
+            if between is None:
+                continue
+            band = between
+            facts = (*geometry.facts(mission), *spots.facts(mission, others[0]))
+        else:
+            continue
+        yield _Band(f'the flight of {mission.uav}', *band, facts)
 
 
-def _band(
-    spec: ScenarioSpec, condition: StatedCondition, mission: UavMission, geometry: Geometry
+def _between(
+    spec: ScenarioSpec,
+    quantity: str,
+    mission: UavMission,
+    other: str,
+    geometry: Geometry,
+    spots: Spots,
 ) -> tuple[float, float] | None:
-    """Return what a flight gives for a condition's quantity; None when it is not about that."""
-    bodies = set(condition.of)
-    if condition.quantity == QuantityName.ALTITUDE:
-        return geometry.altitude(mission) if bodies == {mission.uav} else None
-    if condition.quantity == QuantityName.SPEED:
-        alone = bodies == {mission.uav} and not in_parts(spec, bodies)
-        return geometry.speed(mission) if alone else None
-    if mission.mode is not MissionMode.NAVIGATE and bodies == {mission.uav, mission.target}:
-        if condition.quantity == QuantityName.DISTANCE:
-            return geometry.slant(mission)
-        if condition.quantity == QuantityName.HORIZONTAL_DISTANCE:
-            return geometry.horizontal(mission)
-    below = bodies - {mission.uav}
-    grounded = {a.id for a in spec.agents}
-    on_ground = len(below) == 1 and all(n in grounded or is_place(n) for n in below)
-    if condition.quantity == QuantityName.DISTANCE and mission.uav in bodies and on_ground:
-        # Wherever it flies, whoever is on the ground is below it.
-        return max(0.0, geometry.altitude(mission)[0] - TARGET_HEIGHT_M), math.inf
-    return None
+    """Return how near and far a flight is from somebody; None when nothing bounds that."""
+    watched = mission.mode is not MissionMode.NAVIGATE and mission.target == other
+    grounded = is_place(other) or other in {a.id for a in spec.agents}
+    if not (watched or grounded):
+        return None
+    near_m, far_m = spots.apart_m(mission, other)
+    if quantity == QuantityName.HORIZONTAL_DISTANCE:
+        low_m, high_m = geometry.horizontal(mission) if watched else (0.0, math.inf)
+        return max(low_m, near_m), min(high_m, far_m)
+    if quantity != QuantityName.DISTANCE:
+        return None
+    low_m, high_m = geometry.slant(mission) if watched else (0.0, math.inf)
+    if not grounded:
+        return low_m, high_m
+    # Wherever it flies, whoever is on the ground is below it.
+    lowest_m, highest_m = geometry.altitude(mission)
+    low_m = max(low_m, math.hypot(max(0.0, lowest_m - TARGET_HEIGHT_M), near_m))
+    return low_m, min(high_m, math.hypot(highest_m, far_m))
 
 
 def _driven(

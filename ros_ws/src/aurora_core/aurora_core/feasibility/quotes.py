@@ -12,6 +12,9 @@ from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
+# Joins two things and says nothing of either.
+_JOINS = 'and'
+
 
 def with_clauses(spec: ScenarioSpec, certificate: Certificate) -> Certificate:
     """Return a certificate with the clauses that it rests on, in the order of the prompt.
@@ -31,9 +34,19 @@ def rests_on_unread(spec: ScenarioSpec, certificate: Certificate) -> bool:
 
     `12 m above it`, read as a height above ground: whoever reads admits it, and it proves nothing.
     """
-    unread = [c.span for c in spec.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    unread = list(unread_spans(spec))
     numbers = (at for path in paths_of(certificate) for at in _spans(spec, path, numbers=True))
     return any(u.start <= at.start and at.end <= u.end for at in numbers for u in unread)
+
+
+def unread_spans(spec: ScenarioSpec) -> Iterator[Span]:
+    """Yield the words of the prompt that were not understood.
+
+    A lone `and` is none: what it joins was read, or is told of by itself.
+    """
+    for clause in spec.clauses:
+        if clause.status is ClauseStatus.NOT_ENCODED and clause.text.lower() != _JOINS:
+            yield clause.span
 
 
 def paths_of(certificate: Certificate) -> Iterator[str]:

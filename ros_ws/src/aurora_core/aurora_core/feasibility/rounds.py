@@ -27,9 +27,10 @@ import shapely
 
 from aurora_core.feasibility.certificates import beyond
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
-from aurora_core.feasibility.zones import is_half_read, is_redirected, roof_of
-from aurora_core.knowledge.limits import Limits, Tolerances, part_of_lap_deg
+from aurora_core.feasibility.zones import BESIDE_M, is_half_read, is_redirected, roof_of
+from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Building, Landmark
+from aurora_core.mission.orbits import part_of_lap_deg
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.quantities.waypoints import ORBIT_STEP_DEG
 from aurora_core.spec.parameter import Bound
@@ -377,5 +378,10 @@ def away_m(building: Building, mark: Landmark) -> float:
 
 def _centres(mark: Landmark, buildings: Sequence[Building]) -> tuple[_Place, ...]:
     """Return what may be gone round when a landmark is: where it is, and its building's middle."""
-    own = [b for b in buildings if b.name == mark.name or roof_of(mark, (b,)) is not None]
+    own = [
+        b
+        for b in buildings
+        if b.name == mark.name
+        or (b.has_in_box(mark.x_m, mark.y_m, BESIDE_M) and roof_of(mark, (b,)) is not None)
+    ]
     return tuple(dict.fromkeys([(mark.x_m, mark.y_m), *(b.centre for b in own)]))

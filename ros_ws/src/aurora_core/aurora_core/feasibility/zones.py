@@ -15,6 +15,7 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
+from aurora_core.feasibility.quotes import unread_spans
 from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Building, Landmark, NoFlyZone
@@ -22,13 +23,13 @@ from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec, UavAction, UavMission
 from aurora_core.spec.stated import is_stated, least, most
-from aurora_core.spec.vocabulary import ClauseStatus, MissionMode, Pattern
+from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 # Corners of the polygons that stand for circles.
 _STEP_DEG = 1.0
 _ROUNDING_M = 1e-6
 # A landmark so near to a building stands in it.
-_BESIDE_M = 1.0
+BESIDE_M = 1.0
 
 
 def check_zones(
@@ -60,8 +61,10 @@ def check_zones(
         high = most(stated, slack, limits.uav_altitude_max_m)
         for zone in zones:
             is_level = zone.floor_m <= low and high <= zone.ceiling_m
+            if not is_level:
+                continue
             roof = roof_of(mark, buildings)
-            if is_level and _enters(mission, mark, zone, limits, tolerances, roof):
+            if _enters(mission, mark, zone, limits, tolerances, roof):
                 yield Certificate(
                     kind='geometric_contradiction',
                     reason='geofence',
@@ -124,11 +127,11 @@ def is_over(mission: UavMission) -> bool:
 def roof_of(mark: Landmark, buildings: Sequence[Building]) -> shapely.Geometry | None:
     """Return the outline of the buildings that a landmark stands in, None in the open."""
     point = shapely.Point(mark.x_m, mark.y_m)
-    near = (b for b in buildings if b.has_in_box(mark.x_m, mark.y_m, _BESIDE_M))
+    near = (b for b in buildings if b.has_in_box(mark.x_m, mark.y_m, BESIDE_M))
     found = [
         outline
         for outline in (shapely.Polygon(b.ring) for b in near)
-        if outline.distance(point) <= _BESIDE_M
+        if outline.distance(point) <= BESIDE_M
     ]
     return shapely.union_all(found) if found else None
 
@@ -143,13 +146,10 @@ def roof_reach_m(mark: Landmark, buildings: Sequence[Building]) -> float:
 
 def is_half_read(spec: ScenarioSpec, mission: UavMission) -> bool:
     """Return whether words that may say where a flight is were not read."""
+    at = mission.span
     return any(
-        clause.status is ClauseStatus.NOT_ENCODED
-        and (
-            mission.span is None
-            or (clause.span.start < mission.span.end and mission.span.start < clause.span.end)
-        )
-        for clause in spec.clauses
+        at is None or (words.start < at.end and at.start < words.end)
+        for words in unread_spans(spec)
     )
 
 

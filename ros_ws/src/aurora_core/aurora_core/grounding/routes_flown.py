@@ -29,11 +29,11 @@ from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
 from aurora_core.knowledge.limits import (
     Limits,
     Tolerances,
-    part_of_lap_deg,
     pattern_off_m,
 )
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
+from aurora_core.mission.orbits import part_of_lap_deg
 from aurora_core.mission.plan import MissionPlan
 from aurora_core.quantities.waypoints import orbit_radius_m
 from aurora_core.spec.parameter import Provenance

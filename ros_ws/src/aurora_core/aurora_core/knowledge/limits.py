@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import json
-import math
 from pathlib import Path
 from typing import Annotated, Self, TypeVar
 
@@ -14,11 +13,9 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from aurora_core.document import first_problem, omitted
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
-from aurora_core.spec.parameter import Bound
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
 from aurora_core.spec.scene import World
-from aurora_core.spec.stated import is_stated, most
 from aurora_core.spec.vocabulary import Pattern, TimeOfDay, Weather
 
 # A limit or tolerance of zero would forbid everything; a share lies in (0, 1].
@@ -33,8 +30,6 @@ _CLIMB_SHARE = 0.6
 _ASCENT_SHARE = 0.8
 # A UAV is at its altitude so much later than its climb at a steady rate takes (s).
 LEVELS_OFF_S = 1.0
-# From its capture a UAV comes to the first point of its route in so long (s).
-_TO_ROUTE_S = 4.0
 
 
 class _Table(BaseModel):
@@ -249,34 +244,6 @@ def hover_capture_m(spec: ScenarioSpec, uav: str, limits: Limits, tolerances: To
         if c.quantity == QuantityName.HOVER_DRIFT and uav in c.of and c.op in ('<', '<=')
     )
     return min((hover_drift_limit_m(spec.world, limits, tolerances), *stated))
-
-
-def part_of_lap_deg(
-    mission: UavMission, radius_m: float, limits: Limits, tolerances: Tolerances
-) -> float | None:
-    """Return how far round an orbit gets at least that has no time for a lap (degrees).
-
-    None where it has, where its number of turns is stated, and where it is no orbit of a stated
-    length.
-
-    Args:
-        mission: What is asked for.
-        radius_m: Of its orbit.
-        limits: In force.
-        tolerances: In force.
-    """
-    lasts, speed = mission.duration_s, mission.speed_mps
-    if mission.pattern is not Pattern.ORBIT or mission.turns is not None or radius_m <= 0.0:
-        return None
-    if lasts is None or speed is None or not is_stated(lasts) or lasts.bound is Bound.AT_LEAST:
-        return None
-    slack_mps = tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
-    top_mps = most(speed, slack_mps, limits.uav_speed_max_mps)
-    lap_s = 2.0 * math.pi * radius_m / top_mps + top_mps / tolerances.route_acceleration_mps2
-    if lap_s <= lasts.value:
-        return None
-    flown_s = lasts.value - _TO_ROUTE_S - speed.value / tolerances.route_acceleration_mps2
-    return min(360.0, math.degrees(speed.value * max(0.0, flown_s) / radius_m))
 
 
 def pattern_off_m(mission: UavMission, tolerances: Tolerances) -> float:

@@ -117,11 +117,8 @@ def _place_in_sight(proof: Certificate, request: Request, reach: float) -> list[
     if condition is None or not str(condition.get('quantity')).startswith('visible_'):
         return [(False, f'{proof.path} is about what is seen')]
     observer, target = condition['of']
-    marks = request.landmarks()
     flown = [m for m in request.all('missions') if m['uav'] == observer]
-    away, (place, aside) = [0.0], _stands_at(request, target)
-    if flown and place in marks:
-        away = [_from_landmark(request, m, marks, marks[place]) - aside for m in flown]
+    away = [_along_ground(request, m, target)[0] for m in flown] or [0.0]
     seen = condition['op'] in ('>', '>=', '==') and float(condition['value']['value']) > 0.0
     return [
         asked(proof, condition['value']),
@@ -145,16 +142,14 @@ def _stands_at(request: Request, target: str) -> tuple[str, float]:
     return next(((p['of'], beside) for p in places if p.get('of')), ('', 0.0))
 
 
-def _from_landmark(
-    request: Request,
-    mission: dict[str, Any],
-    marks: dict[str, tuple[float, float]],
-    seen: tuple[float, float],
-) -> float:
-    centre = marks.get(mission.get('target') or '')
-    if centre is None or mission['mode'] != 'hover':
-        return 0.0
-    return math.dist(centre, seen) - farthest(request, mission)
+def _along_ground(request: Request, mission: dict[str, Any], target: str) -> tuple[float, float]:
+    """Return the least and greatest way from a hover at a landmark to what is at another one."""
+    marks, (place, aside) = request.landmarks(), _stands_at(request, target)
+    centre, seen = marks.get(mission.get('target') or ''), marks.get(place)
+    if centre is None or seen is None or mission['mode'] != 'hover':
+        return 0.0, math.inf
+    apart, either = math.dist(centre, seen), farthest(request, mission) + aside
+    return max(0.0, apart - either), apart + either
 
 
 def closeness(proof: Certificate, request: Request) -> list[Step]:
@@ -237,17 +232,30 @@ def _bands(condition: dict[str, Any], request: Request) -> list[tuple[float, flo
         return [heights(request, m) for m in request.all('missions') if {m['uav']} == bodies]
     if quantity == 'speed':
         return _speeds(condition, request)
-    measured = {'distance': straight, 'horizontal_distance': _aside}.get(quantity)
-    if measured is None:
+    if quantity not in ('distance', 'horizontal_distance'):
         return []
     found = []
     for mission in (m for m in request.all('missions') if m['uav'] in bodies):
-        if mission['mode'] != 'navigate' and {mission['uav'], mission.get('target')} == bodies:
-            found.append(measured(request, mission))
-        elif quantity == 'distance' and not bodies - {mission['uav']} & names_of(request, 'uavs'):
+        (other,) = bodies - {mission['uav']}
+        watched = mission['mode'] != 'navigate' and mission.get('target') == other
+        flies = other in names_of(request, 'uavs')
+        if flies and not watched:
+            continue
+        near, far = (0.0, math.inf) if flies else _along_ground(request, mission, other)
+        if not read_whole(request, mission)[0]:
+            near, far = 0.0, math.inf
+        if watched:
+            beside = _aside(request, mission)
+            near, far = max(near, beside[0]), min(far, beside[1])
+        if quantity == 'horizontal_distance':
+            found.append((near, far))
+        elif flies:
+            found.append(straight(request, mission))
+        else:
             # It is on the ground, wherever it is.
-            lowest = heights(request, mission)[0]
-            found.append((max(0.0, lowest - TOP_OF_TARGET_M), math.inf))
+            low, high = heights(request, mission)
+            found.append((math.hypot(max(0.0, low - TOP_OF_TARGET_M), near),
+                          math.hypot(high, far)))  # fmt: skip
     return found
 
 

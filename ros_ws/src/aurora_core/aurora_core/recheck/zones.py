@@ -129,6 +129,7 @@ def read_whole(request: Request, mission: dict[str, Any]) -> Step:
         c['text']
         for c in request.all('clauses')
         if c['status'] == 'not_encoded'
+        and c['text'].lower() != 'and'
         and max(c['span']['start'], span['start']) < min(c['span']['end'], span['end'])
     ]
     return not lost, f'nothing that is said of the flight was left out {lost or ""}'.rstrip()

@@ -82,8 +82,40 @@ REFUSED = (
         'visible to the drone all the time.',
         'sensing_range',
     ),
+    # A lone `and` between two numbers says nothing of either.
+    ('A drone circles Signal Tower at a radius of 30 m and 60 m altitude.', 'geofence'),
+    (
+        'A drone hovers over Meadow Park at 60 m. The distance between the drone and City Hall '
+        'is always below 300 m.',
+        'spatial_contradiction',
+    ),
+    (
+        'A drone hovers over City Hall at 60 m. The horizontal distance between the drone and '
+        'Union Station is always at least 400 m.',
+        'spatial_contradiction',
+    ),
+    (
+        'A drone hovers over Meadow Park at 60 m. A car is parked at Eastgate Stadium. The '
+        'distance between the drone and the car is always below 500 m.',
+        'spatial_contradiction',
+    ),
+    ('Two drones track a bus, never more than 2 m from each other.', 'separation'),
+    (
+        'A drone tracks a taxi at 50 m altitude but always flies lower than 35 m.',
+        'spatial_contradiction',
+    ),
 )
 ACCEPTED = (
+    # What `and` joins was not read, and is told of by itself.
+    'A drone orbits Signal Tower and Meadow Park at a radius of 30 m and 60 m altitude.',
+    # Of two hovers one may be meant; a route may lead there.
+    'A drone hovers over Meadow Park at 60 m and then over City Hall at 60 m. The distance '
+    'between the drone and City Hall is always below 300 m.',
+    'A drone hovers over Meadow Park at 60 m and then flies a line of 900 m at 60 m. The '
+    'horizontal distance between the drone and City Hall is always below 300 m.',
+    # Beside the road to the park that is wider than its name tells.
+    'A drone hovers over Meadow Park at 60 m. A car is parked at Ridge School. The distance '
+    'between the drone and the car is always below 100 m.',
     # An event that ends the phase early leaves time enough.
     'A drone hovers over City Hall for 60 s at 30 m. At 10 s it lands. It must be on the ground '
     'by 50 s.',

@@ -23,8 +23,9 @@ from aurora_core.spec.scenario import StatedCondition
 
 _OF_HEIGHT = re.compile(r'\b(altitude|height|elevation|agl|above (?:the )?ground|flight level)\b')
 _BETWEEN = re.compile(
-    r'\b(?:(?:from|of|to) (?:(?:it|they|any|each|every|other|no) )*N\d|between|apart|closer|'
-    r'nearer|away|distance|gap|spacing|clearance|separation|headway|near|together|leave)'
+    r'\b(?:(?:from|of|to) (?:(?:(?:it|they|any|each|every|other|no) )*N\d|each other|one another)|'
+    r'between|apart|closer|nearer|away|distance|gap|spacing|clearance|separation|headway|near|'
+    r'together|leave)'
 )
 _MUTUAL = re.compile(r'\b(?:each other|one another)\b')
 _VERTICAL = re.compile(

@@ -74,6 +74,7 @@ _CROSSING = re.compile(r'\bcross(?:es|ed|ing)? (?=[LV]\d)')
 _OF_THAT = re.compile(r'T\d+ (?:of|after|from|following|since) (?:that|this|which|it N\d+|it)\b')
 _BOUNDED = re.compile(r'\b(?:atleast|atmost|nolater)\b')
 _LATEST = re.compile(r'\b(?:by|before|nolater|latest)\b')
+_LASTS = re.compile(r'\b(?:keep|maintain|remain|stay)(?:s|ing)?\b')
 _YES_OR_NO = ('landed', 'completed', 'delivered')
 
 
@@ -162,6 +163,9 @@ class _Reading:
             limits, share = self._meant(limits, share)
         if limits is None or len({limit.dimension for limit in limits}) > 1:
             return None
+        throughout = negated or _LASTS.search(self._begin)
+        if throughout and by is not None and limits and limits[0].dimension in 'LV':
+            return None  # `must not exceed 10 m/s within 20 s`: at every moment of these
         if not limits and share is None and hold is None:
             plain = by is not None or words['musts'].search(self._begin)
             if (

@@ -93,13 +93,15 @@ def flights_without_verb(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[
 
 def folded_climbs(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`tracks the car at 30 m and then climbs to 60 m` that became one flight at 60 m."""
-    missions = {m.id for m in spec.missions}
+    missions, asked = {m.id for m in spec.missions}, {c.id for c in spec.conditions}
     for sentence in sentences(atoms):
         begun: set[str] = set()
         for k, atom in enumerate(sentence):
             clause = clause_of(spec, atom) if atom.kind is AtomKind.VERB else None
             if clause is None or (k and sentence[k - 1].key == 'after'):
                 continue  # `tracks it after climbing to 40 m`
+            if asked & set(clause.ids):
+                continue  # `but always flies lower than 35 m`
             told = missions & set(clause.ids)
             if atom.key in _CLIMBS and _flown(spec, sentence[k + 1 :]) - begun:
                 continue  # `climbs to 45 m and hovers there`: the height of what comes next

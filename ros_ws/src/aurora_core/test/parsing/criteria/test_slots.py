@@ -45,6 +45,9 @@ def test_comparison_and_negation_give_the_operator(
         'The bus must brake hard at 20 s',
         'the drone must stay above 40 m if the van brakes',
         'The van must not be slower than 5 m/s for more than 10 s',
+        # All along, not at some moment of these, as a deadline would have it.
+        'The bus must not exceed 10 m/s within 20 s',
+        'The bus must stay below 10 m/s within 20 s',
     ],
 )
 def test_words_without_a_place_make_it_another_clause(text: str) -> None:
