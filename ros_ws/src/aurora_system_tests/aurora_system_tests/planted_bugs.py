@@ -315,6 +315,12 @@ def _never_let_up(executor: ScenarioExecutor) -> Stepper:
     return executor
 
 
+def _leave_it_behind(executor: ScenarioExecutor) -> Stepper:
+    """Let nobody keep to those beside it."""
+    executor._follower._following.clear()
+    return executor
+
+
 def _after_the_ambulance(plan: UavPlan) -> UavPlan:
     document = plan.model_dump()
     for mission in document['missions']:
@@ -429,6 +435,12 @@ PLANTED = (
         'km/h, the drone reports to a police car.',
         _never_let_up,
         'condition:m1.tracked',
+    ),
+    _planted(
+        'beside somebody at the start only',
+        'A truck drives at 7 m/s. A motorcycle drives beside the truck.',
+        _leave_it_behind,
+        'condition:motorcycle1.placed.kept',
     ),
     _planted(
         'capture taken too early',

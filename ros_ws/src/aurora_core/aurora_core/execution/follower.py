@@ -9,12 +9,14 @@ would leave it behind.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
+from math import inf
 
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.knowledge.settings import DrivingStyle
+from aurora_core.outcomes.grounded import GroundedAgent
 from aurora_core.quantities.actions import SPEED_ACTIONS
 from aurora_core.spec.own_events import keeps_to_lanes, own_events
 from aurora_core.spec.parameter import Provenance
@@ -27,8 +29,6 @@ from aurora_core.trace.roster import Roster
 # Sides that a driver keeps to.
 _BESIDE = frozenset({Relation.BESIDE, Relation.LEFT, Relation.RIGHT})
 _NO_DRIVERS = frozenset({AgentType.PEDESTRIAN, AgentType.RSU})
-# Of two, who is not told a speed and cannot be as fast as the other one.
-_SLOW = frozenset({AgentType.BICYCLE})
 
 # A smaller change of speed is not worth a command (m/s).
 _NEW_MPS = 0.2
@@ -66,6 +66,7 @@ class Follower:
     Args:
         spec: The request.
         roster: Row order.
+        agents: As they are grounded.
         lanes: Orders changes of lane.
         drive: Gives the command that lets the agent of a row drive on.
         style: The gap that they keep.
@@ -75,6 +76,7 @@ class Follower:
         self,
         spec: ScenarioSpec,
         roster: Roster,
+        agents: Sequence[GroundedAgent],
         lanes: LaneChanger,
         drive: Callable[[int], GroundCommand],
         style: DrivingStyle,
@@ -83,7 +85,7 @@ class Follower:
         self._roster = roster
         self._lanes = lanes
         self._drive = drive
-        self._following = [*_followings(spec, roster), *_companions(spec, roster)]
+        self._following = [*_followings(spec, roster), *_companions(spec, roster, agents)]
 
     def step(self, tick: int, seen: Observation, held: Collection[int]) -> list[GroundCommand]:
         """Return the commands of a tick.
@@ -177,8 +179,11 @@ def _followings(spec: ScenarioSpec, roster: Roster) -> Iterator[_Following]:
                 )
 
 
-def _companions(spec: ScenarioSpec, roster: Roster) -> Iterator[_Following]:
-    """Yield who is to drive beside somebody: of the two, who is told no speed, or is faster."""
+def _companions(
+    spec: ScenarioSpec, roster: Roster, agents: Sequence[GroundedAgent]
+) -> Iterator[_Following]:
+    """Yield who keeps level with whom: who is told no speed, of two such the faster one."""
+    top_mps = {agent.id: _top_mps(agent) for agent in agents}
     drivers = {agent.id: agent for agent in spec.agents if agent.type not in _NO_DRIVERS}
     acting = {
         event.action.agent
@@ -193,11 +198,16 @@ def _companions(spec: ScenarioSpec, roster: Roster) -> Iterator[_Following]:
             if not beside or None in pair or not free:
                 continue
             rows = [roster.agent_index(a.id) for a in pair if a is not None]
-            slow = [a for a in free if a.type in _SLOW]
-            one = next((a for a in free if a not in slow), free[0])
+            one = max(free, key=lambda a: top_mps.get(a.id, inf))
             row, other = rows if one is pair[0] else reversed(rows)
             if row is not None and other is not None:
                 yield _Following(row=row, other=other, changes=False, paces=True, abreast=True)
+
+
+def _top_mps(agent: GroundedAgent) -> float:
+    """Return the greatest speed that an agent reaches: of its type, or what it holds."""
+    known = (agent.top_speed_mps, agent.drive_speed_mps)
+    return min((mps for mps in known if mps is not None), default=inf)
 
 
 def _told(agent: GroundAgent) -> bool:

@@ -348,6 +348,7 @@ class AgentPlacer:
             drive_speed_mps=speed_mps,
             acceleration_mps2=record.accel_mps2,
             deceleration_mps2=record.decel_mps2,
+            top_speed_mps=record.desired_speed_mps or record.max_speed_mps,
             parked=parked,
             runs_red=in_emergency(agent),
             stop_lane_id=stop_lane_id,

@@ -77,6 +77,7 @@ class Stage:
         releases: When each may start, as (release, UAV); START where not given.
         parted: Who waits until whom is how far away (m).
         halts: Where persons wait who have walked there to cross; all of them are persons then.
+        tops_mps: How fast each is at most by itself.
         tracks: UAV id -> target of its one mission, '' = no mission at all.
         links: UAV or agent pairs with a link.
         hold_s: Length of the track missions.
@@ -94,6 +95,7 @@ class Stage:
     parted: dict[str, tuple[str, float]] = field(default_factory=dict)
     halts: dict[str, tuple[float, float]] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
+    tops_mps: dict[str, float] = field(default_factory=dict)
     tracks: dict[str, str] = field(default_factory=lambda: {'uav1': 'van1'})
     links: tuple[tuple[str, str], ...] = ()
     events: tuple[Event, ...] = ()
@@ -245,6 +247,7 @@ class Stage:
             release_mission=f'm{list(self.tracks).index(uav)}' if uav else '',
             drive_speed_mps=self.speeds.get(agent),
             halt_xy_m=self.halts.get(agent),
+            top_speed_mps=self.tops_mps.get(agent),
         )
 
     def _uav_plans(self) -> list[UavPlan]:

@@ -129,3 +129,29 @@ def test_of_two_beside_one_another_a_told_speed_stays(
     told = [v for _, agent, k, v in scene.commands() if agent == 'van1' and k == SPEED]
     assert told == [pytest.approx(6.0 - 0.4 * 5.0)]
     assert all(v == 6.0 for v in _of_ego(scene, SPEED))
+
+
+@pytest.mark.parametrize(
+    ('tops_mps', 'told'),
+    [
+        ({'ego': 5.0}, 'van1'),  # however it is called: a cyclist, or a tractor
+        ({'van1': 5.0}, 'ego'),
+        ({}, 'ego'),
+        ({'ego': 20.0, 'van1': 30.0}, 'van1'),
+    ],
+)
+def test_of_two_beside_one_another_the_faster_one_keeps_level(
+    tops_mps: dict[str, float], told: str, stage: Build
+) -> None:
+    """The slower one could not catch up with the other one."""
+    scene = _abreast(stage, Relation.BESIDE, tops_mps=tops_mps)
+    scene.put('van1', 200.0, 3.3, 4.0).put('ego', 195.0, speed=4.0).step(3)
+    assert {agent for _, agent, kind, _ in scene.commands() if kind == SPEED} == {told}
+
+
+def test_of_two_beside_one_another_a_bound_holds(stage: Build) -> None:
+    """Who may go no faster than 6 m/s is the one that is kept level with."""
+    scene = _abreast(stage, Relation.BESIDE, speeds={'ego': 6.0})
+    scene.put('van1', 200.0, 3.3, 6.0).put('ego', 195.0, speed=6.0).step(3)
+    told = [v for _, agent, k, v in scene.commands() if agent == 'van1' and k == SPEED]
+    assert told == [pytest.approx(6.0 - 0.4 * 5.0)]
