@@ -101,7 +101,9 @@ class AgentPlacer:
         apart = group_releases(spec, split)
         seats = {s.agent.id: s for s in (*site.seated, *site.others)}
         network, speeds = self._map.network, self._settings.grounding.speeds
-        styles = ConvoyStyles(spec, site, self._types, network, self._settings, self._limits)
+        styles = ConvoyStyles(
+            spec, site, self._types, network, self._settings, self._limits, self._tolerances
+        )
         waiting = {
             name: Release(on=ReleaseOn.PARTED, agent=front, beyond_m=beyond_m)
             for name, front, beyond_m in head_starts(
