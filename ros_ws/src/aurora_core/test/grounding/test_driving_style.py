@@ -57,3 +57,21 @@ def test_who_is_to_let_somebody_pass_is_slower_than_its_stated_speed(
     ]
     assert found['car1'].drive_speed_mps is None
     assert found['car1'].speed_factor * max(limits) < 0.8 * 12.0
+
+
+def test_who_changes_lane_for_one_that_stops_then_is_not_at_a_junction(
+    agents: Callable[[str], dict[str, GroundedAgent]],
+    map_of: Callable[[str], MapModel],
+) -> None:
+    """At the pace of a convoy they are 220 to 290 m on by then, and well inside a street."""
+    van = agents(
+        'A van is 25 m behind a car. At 20 s the car stops. When the car is slower than 2 m/s, '
+        'the van changes lane.'
+    )['van1']
+    network = map_of('downtown').network
+    ends_m, reached_m = [], -van.lane_position_m
+    for edge in van.edges:
+        lanes = (lane for lane in network.lanes.values() if lane.edge_id == edge)
+        reached_m += max(lane.arc_length_m for lane in lanes)
+        ends_m.append(reached_m)
+    assert not any(220.0 < end_m < 280.0 for end_m in ends_m), ends_m
