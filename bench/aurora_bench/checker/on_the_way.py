@@ -11,9 +11,10 @@ from aurora_bench.checker.answers import Judged, graded, holds
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.numbers import Wanted, wanted
 from aurora_bench.checker.pairs import STEP_S
-from aurora_bench.checker.paths import ahead_of
+from aurora_bench.checker.paths import ahead_of, frame
 from aurora_bench.checker.phases import missions_end_s
-from aurora_bench.checker.scene import share
+from aurora_bench.checker.recording import BoolArray
+from aurora_bench.checker.scene import Scene, share
 
 
 def on_the_way(
@@ -43,6 +44,30 @@ def on_the_way(
     middle = float(np.nanmedian(gap)) if np.isfinite(gap).any() else np.nan
     why = f'{follower} {far}behind {leader} for {kept:.0%} of the way, median {middle:.1f} m'
     return graded(kept >= limits.FOLLOW_SHARE, not told, why)
+
+
+def abreast(scene: Scene, body: str, other: str, relation: str) -> tuple[BoolArray, BoolArray]:
+    """Return (ticks,) whether a body is within 45 degrees of a side of another one, or level."""
+    forward, left = frame(scene, body, other)
+    side = {'left': left, 'right': -left}.get(relation, np.abs(left))
+    angle = np.degrees(np.arctan2(np.abs(forward), side))
+    # Side by side also means: overlapping along the way.
+    lengths = [scene.bodies[b].length_m for b in (body, other)]
+    level = (side > 0.0) & (np.abs(forward) <= sum(lengths) / 2.0)
+    return angle <= limits.SIDE_DEG, level
+
+
+def beside_on_the_way(case: Case, requirement: Requirement, body: str, other: str) -> Judged:
+    """Return whether a side that is told with motion is kept until the last mission ends."""
+    if not requirement.get('kept'):
+        return holds('')
+    scene = case.scene
+    aside, level = abreast(scene, body, other, str(requirement.get('relation')))
+    there = scene.present(body) & scene.present(other)
+    asked = scene.times < missions_end_s(scene)
+    kept = share(((aside | level) & there)[asked])
+    why = f'{body} {requirement.get("relation")} {other} for {kept:.0%} of the time'
+    return graded(kept >= limits.FOLLOW_SHARE, False, why)
 
 
 def stated_between(case: Case, follower: str, leader: str) -> Wanted | None:

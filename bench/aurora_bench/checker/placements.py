@@ -22,7 +22,7 @@ from aurora_bench.checker.answers import (
 )
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.numbers import Wanted, wanted
-from aurora_bench.checker.on_the_way import on_the_way
+from aurora_bench.checker.on_the_way import abreast, beside_on_the_way, on_the_way
 from aurora_bench.checker.paths import ahead_of, frame, lane_of, project, way
 from aurora_bench.checker.places import Spot
 
@@ -220,15 +220,13 @@ def _comes_to_a_place(case: Case, body: str) -> bool:
 
 def _beside(case: Case, requirement: Requirement, body: str, other: str) -> Judged:
     forward, left = (float(v[0]) for v in frame(case.scene, body, other))
-    relation = requirement.get('relation')
-    side = {'left': left, 'right': -left}.get(str(relation), abs(left))
-    angle = np.degrees(np.arctan2(abs(forward), side))
+    aside, level = abreast(case.scene, body, other, str(requirement.get('relation')))
     why = f'{body} {left:+.1f} m left and {forward:+.1f} m forward of {other}'
-    # Side by side also means: overlapping along the way.
-    lengths = [case.scene.bodies[b].length_m for b in (body, other)]
-    level = side > 0.0 and abs(forward) <= sum(lengths) / 2.0
-    aside = bool(angle <= limits.SIDE_DEG)
-    parts = [graded(aside, level, why), _straight(case, requirement, body, other)]
+    parts = [
+        graded(bool(aside[0]), bool(level[0]), why),
+        _straight(case, requirement, body, other),
+        beside_on_the_way(case, requirement, body, other),
+    ]
     if requirement.get('distance_m') is None:
         gap = float(np.hypot(forward, left))
         sure, most = BESIDE_M

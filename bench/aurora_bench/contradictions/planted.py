@@ -122,4 +122,11 @@ PLANTED: tuple[Planted, ...] = (
         'brakes 2 s before its delay is over', 'brake later', bugs.BRAKES_EARLY, 'r4', 'e2.within'
     ),
     _bug('drives past where it is to park', 'parking', bugs.DRIVES_PAST, 'r2', 'truck1.park2'),
+    _bug(
+        'drives beside somebody at the start only',
+        'beside',
+        bugs.planted('beside somebody at the start only'),
+        'r4',
+        'motorcycle1.placed.kept',
+    ),
 )

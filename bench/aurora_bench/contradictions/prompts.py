@@ -242,4 +242,19 @@ REQUESTS: Mapping[str, Annotated] = {
         {'kind': 'behavior', 'agent': 'truck1', 'behavior': 'drive', 'target': 'Harbor Market'},
         {'kind': 'world', 'field': 'duration_s', 'value': 140},
     ),
+    'beside': _annotated(
+        'beside',
+        'spatial',
+        'A truck drives at 7 m/s. A motorcycle drives beside the truck.',
+        _body('truck1', 'truck'),
+        {'kind': 'behavior', 'agent': 'truck1', 'behavior': 'drive', 'speed_mps': 7},
+        _body('motorcycle1', 'motorcycle'),
+        {
+            'kind': 'placement',
+            'agent': 'motorcycle1',
+            'relation': 'beside',
+            'of': 'truck1',
+            'kept': True,
+        },
+    ),
 }

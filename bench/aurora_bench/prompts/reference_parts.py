@@ -170,7 +170,10 @@ def mission(
             found |= {'target': names.agent(None), 'target_inferred': True}
     if mode != 'navigate':
         return {'duration_s': default('duration_s'), **found}
-    goes = r.start is not None or r.end is not None
+    sizes = (r.pattern, r.size_m, r.radius_m, r.waypoint_count, r.turns)
+    # With a target and nothing of a pattern it is a flight to that.
+    to_it = r.target is not None and all(size is None for size in sizes)
+    goes = r.start is not None or r.end is not None or to_it
     points = goes or (r.waypoint_count is not None and r.size_m is None)
     pattern = str(r.pattern) if r.pattern is not None else 'waypoints' if points else 'rectangle'
     found = {'speed_mps': default('speed_mps'), **found, 'pattern': pattern}

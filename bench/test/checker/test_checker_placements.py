@@ -70,6 +70,20 @@ def test_ahead_behind_and_beside_are_told_apart(stage: Any) -> None:
     assert stage.says(_ahead(relation='same_lane')) == 'does_not'
 
 
+@pytest.mark.parametrize(
+    ('faster_mps', 'kept', 'outcome'),
+    [(0.0, True, 'holds'), (1.0, True, 'does_not'), (1.0, False, 'holds')],
+)
+@pytest.mark.parametrize('relation', ['beside', 'right'])
+def test_a_side_that_is_told_with_motion_holds_on_the_way(
+    stage: Any, relation: str, faster_mps: float, kept: bool, outcome: str
+) -> None:
+    """After a minute at 1 m/s more than the bus the car is 60 m ahead of it."""
+    stage.drive('bus1', 'bus', 8.0, x=0.0)
+    stage.drive('car1', 'car', 8.0 + faster_mps, x=0.0, y=-4.95)
+    assert stage.says(_ahead(relation=relation) | {'kept': kept}) == outcome
+
+
 def test_behind_in_the_same_lane(stage: Any) -> None:
     _pair(stage, -30.0)
     assert stage.says(_ahead(30, 'behind')) == 'holds'

@@ -133,6 +133,18 @@ def test_the_first_reading_that_can_be_said_is_taken() -> None:
     assert [m.altitude_m.value for m in spec.missions] == [70]
 
 
+@pytest.mark.parametrize('field', ['target', 'end'])
+def test_a_flight_to_a_place_ends_over_it(field: str) -> None:
+    """Nothing of a pattern is annotated: "flies to the market" is no rectangle about it."""
+    flies: Doc = {**HOVER, 'mode': 'navigate', field: 'Harbor Market'}
+    (mission,) = reference_spec(prompt(UAV, flies)).missions
+    assert (mission.target, mission.pattern) == ('landmark:Harbor Market', 'waypoints')
+    assert mission.waypoint_count is not None
+    assert mission.waypoint_count.value == 1
+    sized = reference_spec(prompt(UAV, {**flies, 'target': 'Harbor Market', 'size_m': [80, 50]}))
+    assert sized.missions[0].pattern == 'rectangle' or field == 'end'
+
+
 def test_what_cannot_be_said_is_told() -> None:
     up = {
         'id': 'r7', 'kind': 'event', 'ref': 'e1',

@@ -326,6 +326,12 @@ def _half_the_time(executor: ScenarioExecutor) -> Stepper:
     return other
 
 
+def _leave_it_behind(executor: ScenarioExecutor) -> Stepper:
+    """Let nobody keep to those beside it."""
+    executor._follower._following.clear()
+    return executor
+
+
 def _after_the_ambulance(plan: UavPlan) -> UavPlan:
     document = plan.model_dump()
     for mission in document['missions']:
@@ -452,6 +458,12 @@ PLANTED = (
         'A van waits for 14 seconds. A drone hovers at 30 meters for 10 seconds.',
         _half_the_time,
         'condition:van1.wait',
+    ),
+    _planted(
+        'beside somebody at the start only',
+        'A truck drives at 7 m/s. A motorcycle drives beside the truck.',
+        _leave_it_behind,
+        'condition:motorcycle1.placed.kept',
     ),
     _planted(
         'capture taken too early',

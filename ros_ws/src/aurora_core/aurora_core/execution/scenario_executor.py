@@ -132,7 +132,13 @@ class ScenarioExecutor:
         self._premises = Premises(setup.spec, setup.roster, self._ways, most_mps)
         self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes(), setup.driving)
         self._follower = Follower(
-            setup.spec, setup.roster, self._lanes(), self._drives, setup.driving
+            setup.spec,
+            setup.roster,
+            setup.agents,
+            self._lanes(),
+            self._drives,
+            setup.driving,
+            setup.action_rules,
         )
         self._standing = Standing(setup.spec, setup.agents, setup.roster.dt_s)
         self._done_tick: int | None = None

@@ -13,7 +13,8 @@ import numpy as np
 from aurora_core.errors import MapError
 from aurora_core.geometry.arrays import FloatArray, FloatLike, as_rows, frozen
 
-_START_TIE_M = 2.0  # branches this much farther than the nearest one compete for the start
+# Branches this much farther than the nearest one compete for the start: the lane beside, too (m).
+_START_TIE_M = 4.0
 DEFAULT_WINDOW_M = 10.0
 _MANY_POINTS = 32  # fewer are measured sooner one by one
 

@@ -101,7 +101,9 @@ class AgentPlacer:
         apart = group_releases(spec, split)
         seats = {s.agent.id: s for s in (*site.seated, *site.others)}
         network, speeds = self._map.network, self._settings.grounding.speeds
-        styles = ConvoyStyles(spec, site, self._types, network, self._settings, self._limits)
+        styles = ConvoyStyles(
+            spec, site, self._types, network, self._settings, self._limits, self._tolerances
+        )
         waiting = {
             name: Release(on=ReleaseOn.PARTED, agent=front, beyond_m=beyond_m)
             for name, front, beyond_m in head_starts(
@@ -348,6 +350,7 @@ class AgentPlacer:
             drive_speed_mps=speed_mps,
             acceleration_mps2=record.accel_mps2,
             deceleration_mps2=record.decel_mps2,
+            top_speed_mps=record.desired_speed_mps or record.max_speed_mps,
             parked=parked,
             runs_red=in_emergency(agent),
             stop_lane_id=stop_lane_id,

@@ -25,7 +25,7 @@ from aurora_core.grounding.pace import (
 )
 from aurora_core.grounding.sites import SeatedAgent, Site, tied_way_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
-from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.settings import Settings, SpeedSettings
 from aurora_core.spec.own_events import let_cross, overtakings
@@ -39,6 +39,12 @@ _SLOWEST_MPS = 8.0
 
 # Time gap of each of several that follow one: the last one has to be near it, too (s).
 _IN_LINE_S = 0.6
+
+# Behind somebody slow who follows keeps so much more than the least gap (m).
+_BEHIND_SLOW_M = 0.5
+
+# Share of a stated speed that is driven ahead of who drives it and is to be let pass.
+_LETS_PASS = 0.7
 
 # Who overtakes is so much faster (m/s).
 _PASSES_BY_MPS = 4.0
@@ -61,6 +67,7 @@ class ConvoyStyles:
         network: With the speed limits.
         settings: Styles of driving.
         limits: In force.
+        tolerances: In force.
     """
 
     def __init__(
@@ -71,8 +78,10 @@ class ConvoyStyles:
         network: RoadNetwork,
         settings: Settings,
         limits: Limits,
+        tolerances: Tolerances,
     ) -> None:
         self._spec = spec
+        self._tolerances = tolerances
         self._types = types
         self._settings = settings
         self._seats = {s.agent.id: s for s in (*site.seated, *site.others)}
@@ -175,6 +184,8 @@ class ConvoyStyles:
             return emergency_style(agent, self._settings.grounding.speeds, watched_on_mps)
         behind = self._settings.grounding.convoy_speed_factor_behind
         style = {'speed_factor': factor if is_front else factor * behind}
+        if any(b.kind is BehaviorKind.FOLLOW for b in agent.behaviors):
+            style['min_gap_m'] = self._follow_gap_m(agent)
         if agent.id in self._in_line:
             style |= {'time_gap_s': _IN_LINE_S}
         for gap in self._gaps:
@@ -196,6 +207,13 @@ class ConvoyStyles:
         pace_mps = own_speed_mps(ahead.agent) or self._factor * self._limit_mps
         types = self._types[agent.type.value], self._types[ahead.agent.type.value]
         return headway_style(stated[1], *types, pace_mps)
+
+    def _follow_gap_m(self, agent: GroundAgent) -> float:
+        """Return the gap at standstill of who follows: behind a slow one it is far enough, too."""
+        record, least_m = self._types[agent.type.value], self._tolerances.follow_gap_moving_m[0]
+        gap_s = _IN_LINE_S if agent.id in self._in_line else record.headway_s
+        slow_m = least_m + _BEHIND_SLOW_M - gap_s * self._tolerances.follow_slow_mps
+        return max(record.min_gap_m, slow_m)
 
     def _pace_mps(self, gap: KeptGap) -> float:
         """Return how fast the line is in which two keep their distance (m/s)."""
@@ -233,6 +251,9 @@ class ConvoyStyles:
             speeds = [own_speed_mps(agents[other]) or 0.0 for other in passed]
             brisk = max(speeds) + _PASSES_BY_MPS > grounding.target_speed_mps
             return {'speed_factor': 1.0 if brisk else self._factor}
+        comes_up_mps = self._slowest_that_passes_mps(agent)
+        if comes_up_mps is not None:
+            return {'speed_factor': min(self._factor, _LETS_PASS * comes_up_mps / self._limit_mps)}
         slow = [other for _, other in pairs]
         # Whom they follow is as slow as they are.
         for name in slow:
@@ -248,6 +269,25 @@ class ConvoyStyles:
         slow += [f for f, others in self._led.items() if hurried.isdisjoint((f, *others))]
         slowed = agent.id in slow and own_speed_mps(agent) is None
         return {'speed_factor': self._factor * grounding.chased_speed_factor} if slowed else {}
+
+    def _slowest_that_passes_mps(self, agent: GroundAgent) -> float | None:
+        """Return the least stated speed of those behind that an agent is to let pass, m/s.
+
+        None where there are none, or its own speed is stated.
+        """
+        own = self._seats[agent.id]
+        behind = [
+            self._seats[b.target]
+            for b in agent.behaviors
+            if b.kind is BehaviorKind.YIELD and b.target in self._seats
+        ]
+        speeds = [
+            own_speed_mps(seat.agent)
+            for seat in behind
+            if seat.arc_m < own.arc_m and own.path.edge_ids[0] in seat.path.edge_ids
+        ]
+        stated = [mps for mps in speeds if mps]
+        return min(stated) if stated and own_speed_mps(agent) is None else None
 
     def _paced_style(self, seat: SeatedAgent, factor: float) -> dict[str, float]:
         """Return what gives the pace to a type that wants to be slower than the road allows.

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from math import cos, pi, sin
 
 import numpy as np
@@ -13,21 +14,16 @@ import numpy.typing as npt
 
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.apart import sharing
-from aurora_core.grounding.awaited import is_kept_away
 from aurora_core.grounding.beside import turned_along, with_turns
+from aurora_core.grounding.centre import centre_of
 from aurora_core.grounding.come_upon import come_upon
 from aurora_core.grounding.crossings import crossed
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.neighbours import NOBODY, Neighbours
 from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
-from aurora_core.grounding.places import (
-    ROAD_STEP_M,
-    ROAD_WAY_M,
-    ROADS,
-    MapPlaces,
-    has_point,
-    road_point,
-)
+from aurora_core.grounding.onward import onward_from
+from aurora_core.grounding.pace import watched_speed_mps
+from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import (
     PlannedFlight,
     Rejected,
@@ -38,10 +34,9 @@ from aurora_core.grounding.planned_flight import (
     landing_areas,
     planned_height_m,
 )
-from aurora_core.grounding.premises import middle_of_route
 from aurora_core.grounding.pulling_away import PullingAway, phase_s, pulling_away
 from aurora_core.grounding.routes_flown import RoutePlanner
-from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
+from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.starts import Starts, uncrossed
 from aurora_core.grounding.staying import staying
@@ -146,6 +141,7 @@ class FlightPlanner:
         site: Site,
         speed_mps: float,
         others: Neighbours = NOBODY,
+        before: Sequence[PlannedFlight] = (),
     ) -> PlannedFlight | Rejected:
         """Plan one mission at a site.
 
@@ -155,6 +151,7 @@ class FlightPlanner:
             site: Where.
             speed_mps: Speed that the target will drive.
             others: Where other UAVs are.
+            before: The missions before it of the same UAV, as planned.
         """
         mission = inside_bound(mission, self._limits, self._tolerances)
         if stays_where_it_is(spec, mission):
@@ -162,6 +159,11 @@ class FlightPlanner:
             return staying(spec, mission, plan, self._limits, self._tolerances)
         if mission.mode is MissionMode.TRACK:
             return self._track(spec, mission, site, speed_mps)
+        here = onward_from(spec, mission, site, before, partial(self._target_mps, spec))
+        if here is not None:
+            onward = self._routes.onward(mission, here, others)
+            if not isinstance(onward, Rejected):
+                return onward
         found = self._at_place(spec, mission, site, speed_mps, others)
         free = mission.altitude_m.provenance is Provenance.DEFAULT and len(spec.uavs) == 1
         if not isinstance(found, Rejected) or not free or not is_landmark(mission.target):
@@ -190,7 +192,7 @@ class FlightPlanner:
         if stood is not None:
             height_m = self._types[stood.agent.type.value].height_m / 2.0
             return self._routes.coming_upon(mission, stood, height_m, self._range)
-        centre = self._centre(spec, mission, site)
+        centre = centre_of(spec, mission, site, self._places, self._range)
         if centre is None:
             return Rejected(reason='target_place')
         if mission.start is not None:
@@ -287,6 +289,9 @@ class FlightPlanner:
         for x, y in (area for m in plan.missions for area in landing_areas(m, site)):
             spots += [s for s in self._spots.near(x, y) if s not in spots]
         return UavPlan.model_validate({**plan.model_dump(), 'landing_spots': tuple(spots)})
+
+    def _target_mps(self, spec: ScenarioSpec, mission: UavMission) -> float:
+        return watched_speed_mps(spec, mission, self._limits, self._settings)
 
     def _track(
         self, spec: ScenarioSpec, mission: UavMission, site: Site, speed_mps: float
@@ -468,31 +473,6 @@ class FlightPlanner:
                 over_street=0.0,
             )
         return Rejected(reason=reason)
-
-    def _centre(
-        self, spec: ScenarioSpec, mission: UavMission, site: Site
-    ) -> tuple[float, float, float, float] | None:
-        target = mission.target
-        x, y, hx, hy = site.origin()
-        if target is None or (target in ROADS and is_kept_away(spec, mission)):
-            return middle_of_route(spec, mission, site, self._range)
-        seat = site.seat(target)
-        if seat is not None:
-            return seat.path.position_at(seat.arc_m)
-        if has_point(target):
-            point = self._places.itself(target, (x, y))
-            heading = (1.0, 0.0) if is_landmark(target) else (hx, hy)
-            return (*point, *heading)
-        if target in ROADS:
-            samples = samples_along(
-                site.origin_path, site.origin_arc_m, ROAD_WAY_M, ROAD_STEP_M
-            ).tolist()
-            everybody: tuple[SeatedAgent | SeatedPerson, ...]
-            everybody = (*site.seated, *site.others, *site.walkers)
-            seats = [s.path.position_at(s.arc_m)[:2] for s in everybody]
-            road_x, road_y = road_point([(p[0], p[1]) for p in samples], seats)
-            return road_x, road_y, hx, hy
-        return None
 
 
 def _at_height(points: FloatArray, height_m: float) -> FloatArray:

@@ -404,7 +404,7 @@ class Grounder:
                     layer_m=layer_m(spec, self._limits),
                     share=share,
                 )
-                flight = planner.plan_mission(spec, mission, site, speed, others)
+                flight = planner.plan_mission(spec, mission, site, speed, others, own)
                 if isinstance(flight, Rejected):
                     return flight
                 own.append(flight)

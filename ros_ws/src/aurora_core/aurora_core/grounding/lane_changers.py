@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.pace import stated_times_s
@@ -15,7 +15,14 @@ from aurora_core.knowledge.route_path import RouteSegment
 from aurora_core.quantities.lane_changes import ROOM_S, ids_beside
 from aurora_core.spec.own_events import keeps_to_lanes, overtakings, own_events
 from aurora_core.spec.parking import parks
-from aurora_core.spec.scenario import AgentAction, AltitudeTrigger, GroundAgent, ScenarioSpec
+from aurora_core.spec.scenario import (
+    AgentAction,
+    AltitudeTrigger,
+    Event,
+    GroundAgent,
+    ScenarioSpec,
+    SpeedTrigger,
+)
 from aurora_core.spec.vocabulary import LaneSide
 
 # Share of a lane's length that its ends are apart where it is straight.
@@ -24,6 +31,9 @@ _STRAIGHT = 0.995
 # From rest one gains so much (m/s^2), and one is where one is then to so much (m).
 _GAINS_MPS2 = 2.6
 _UNSURE_M = 8.0
+
+# Who is told to stop or to slow down is slow by so much later (s).
+_SLOW_S = 3.0
 
 # SUMO bit set: no change of lane but the ordered one, which minds the others.
 ORDERED_CHANGES = 512
@@ -94,7 +104,8 @@ def changes_in_time(
 ) -> float:
     """Return whether a vehicle is where it can change lane when it is to, in [0, 1].
 
-    At a stated time it has driven so far; when a UAV is up it has hardly begun to.
+    At a stated time it has driven so far, as when somebody slows down then for whom it changes
+    lane; when a UAV is up it has hardly begun to.
 
     Args:
         spec: The request.
@@ -113,6 +124,7 @@ def changes_in_time(
             due.append((times_s[e.id], e.action.side))
         if isinstance(e.trigger, AltitudeTrigger):
             due.append((0.0, e.action.side))
+        due += [(at_s, e.action.side) for at_s in _slow_by_s(spec, e, times_s)]
     lags_m = pace_mps * pace_mps / (2.0 * _GAINS_MPS2)
     fit = 0
     for at_s, side in due:
@@ -123,6 +135,21 @@ def changes_in_time(
             for s in _wide_streets(network, seat, side)
         )
     return fit / len(due) if due else 1.0
+
+
+def _slow_by_s(spec: ScenarioSpec, event: Event, times_s: Mapping[str, float]) -> list[float]:
+    """Return when somebody begins to slow down at a stated time, and is slow, as is waited for."""
+    trigger = event.trigger
+    if not isinstance(trigger, SpeedTrigger) or trigger.on != 'speed_below':
+        return []
+    begins_s = [
+        times_s[e.id]
+        for e in spec.events
+        if isinstance(e.action, AgentAction)
+        and (e.action.agent, e.id in times_s) == (trigger.who, True)
+        and e.action.do in ('stop', 'brake', 'slow')
+    ]
+    return [at_s + later_s for at_s in begins_s for later_s in (0.0, _SLOW_S)]
 
 
 def _wide_streets(

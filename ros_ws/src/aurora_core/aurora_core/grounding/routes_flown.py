@@ -41,6 +41,7 @@ from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.vocabulary import Pattern
 
+Point2 = tuple[float, float]
 Point3 = tuple[float, float, float]
 Pose = tuple[float, float, float, float]
 
@@ -53,6 +54,8 @@ _WIDER = (1.5, 2.0, 3.0, 4.0)
 # Patterns that end where they begin may begin anywhere on them: at so many of their shares.
 _CLOSED = (Pattern.ORBIT, Pattern.RECTANGLE)
 _BEGINNINGS = 12
+# A pattern that begins where its UAV is is tried in so many directions.
+_DIRECTIONS = 16
 # Beside others so many places are tried, half their distance apart, and the centre stays so much
 # inside its tolerance (m).
 _BESIDE = 24
@@ -133,6 +136,29 @@ class RoutePlanner:
             if not isinstance(found, Rejected) and others.gap_m(found.plan) > gap_m:
                 best, gap_m = found, others.gap_m(found.plan)
         return best
+
+    def onward(
+        self, mission: UavMission, here: Pose, others: Neighbours = NOBODY
+    ) -> PlannedFlight | Rejected:
+        """Return the plan of a pattern that begins where its UAV is, in whichever direction.
+
+        Args:
+            mission: What to fly.
+            here: Where it is (x, y in m, ENU), and the direction that is tried first (unit).
+            others: Where other UAVs are.
+        """
+        x, y, hx, hy = here
+        points = self._points(mission)
+        if points is None:
+            return Rejected(reason='pattern')
+        for k in range(_DIRECTIONS):
+            cosine, sine = cos(2.0 * pi * k / _DIRECTIONS), sin(2.0 * pi * k / _DIRECTIONS)
+            heading = hx * cosine - hy * sine, hx * sine + hy * cosine
+            off_x, off_y = _placed(mission, points, (0.0, 0.0), heading)[0]
+            found = self._around(mission, (x - off_x, y - off_y, *heading), 0.0, crosswise=False)
+            if not isinstance(found, Rejected) and others.gap_m(found.plan) >= others.apart_m:
+                return found
+        return Rejected(reason='clearance')
 
     def _moved(
         self, mission: UavMission, centre: Pose, rejected: Rejected
@@ -285,18 +311,8 @@ class RoutePlanner:
         self, mission: UavMission, centre: Pose, turned: float, *, crosswise: bool = True
     ) -> PlannedFlight | Rejected:
         """Plan a pattern round a point, begun at a share of it, along a street or across it."""
-        assert mission.pattern is not None
-        assert mission.speed_mps is not None
-        count = 4 if mission.waypoint_count is None else round(mission.waypoint_count.value)
-        length, width = (p.value for p in mission.size_m) if mission.size_m else (100.0, 60.0)
-        points = pattern_points(
-            mission.pattern,
-            length_m=length,
-            width_m=width,
-            radius_m=_radius_m(mission, count, self._tolerances.route_acceleration_mps2),
-            waypoint_count=count,
-        )
-        if points is None or mission.speed_mps.value <= 0.0:
+        points = self._points(mission)
+        if points is None:
             return Rejected(reason='pattern')
         points = begun_at(points, turned) if turned else points
         hx, hy = centre[2], centre[3]
@@ -308,10 +324,7 @@ class RoutePlanner:
         for heading in headings:
             for along in shifts if mission.over_streets else (0.0,):
                 middle = (centre[0] + along * hx, centre[1] + along * hy)
-                placed = place_pattern(points, middle, heading)
-                # The circle through an odd number of points is not about their middle.
-                if mission.pattern is Pattern.WAYPOINTS and count % 2 and len(placed) > 1:
-                    placed = centred(placed, middle)
+                placed = _placed(mission, points, middle, heading)
                 if self._air.bars_level(placed, height_m, self._settings.clearance_m):
                     continue
                 way = tuple((x, y, height_m) for x, y in placed)
@@ -329,6 +342,22 @@ class RoutePlanner:
         if best is None:
             return Rejected(reason='clearance')
         return replace(best, plan=self._lasting(mission, best.plan))
+
+    def _points(self, mission: UavMission) -> tuple[Point2, ...] | None:
+        """Return the points of a pattern about (0, 0), None where it is none that can be flown."""
+        assert mission.pattern is not None
+        assert mission.speed_mps is not None
+        if mission.speed_mps.value <= 0.0:
+            return None
+        count = 4 if mission.waypoint_count is None else round(mission.waypoint_count.value)
+        length, width = (p.value for p in mission.size_m) if mission.size_m else (100.0, 60.0)
+        return pattern_points(
+            mission.pattern,
+            length_m=length,
+            width_m=width,
+            radius_m=_radius_m(mission, count, self._tolerances.route_acceleration_mps2),
+            waypoint_count=count,
+        )
 
     def _plan(self, mission: UavMission, way: tuple[Point3, ...]) -> MissionPlan:
         speed = mission.speed_mps
@@ -390,6 +419,17 @@ class RoutePlanner:
             ),
             default=0.0,
         )
+
+
+def _placed(
+    mission: UavMission, points: tuple[Point2, ...], middle: Point2, heading: Point2
+) -> tuple[Point2, ...]:
+    """Return the points of a pattern about a place, turned to a heading (unit vector)."""
+    placed = place_pattern(points, middle, heading)
+    # The circle through an odd number of points is not about their middle.
+    if mission.pattern is Pattern.WAYPOINTS and len(placed) % 2 and len(placed) > 1:
+        placed = centred(placed, middle)
+    return placed
 
 
 def _is_all_stated(mission: UavMission) -> bool:

@@ -73,6 +73,7 @@ class GroundedAgent(Document):
         way_xy_m: Persons: their way over the street where no crosswalk is, ENU map frame.
         halt_xy_m: Persons: where they wait, once they have walked there, for the event that lets
             them cross; ENU map frame.
+        top_speed_mps: It drives no faster by itself, whatever the street allows (None: not known).
         gentle_mps2: It accelerates no harder, so that who keeps a distance behind it can (None:
             as its type does).
     """
@@ -109,6 +110,7 @@ class GroundedAgent(Document):
     stop_position_m: FiniteFloat = omitted(0.0)
     stop_s: FiniteFloat | None = omitted(None)
     gentle_mps2: FiniteFloat | None = omitted(None)
+    top_speed_mps: FiniteFloat | None = omitted(None)
     runs_red: bool = omitted(False)
     lateral_m: FiniteFloat = omitted(0.0)
     way_xy_m: tuple[tuple[FiniteFloat, FiniteFloat], ...] = omitted(())

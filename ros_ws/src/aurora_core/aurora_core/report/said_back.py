@@ -32,7 +32,7 @@ from aurora_core.spec.events import (
     UavAction,
     VisibilityTrigger,
 )
-from aurora_core.spec.flight_order import stays_where_it_is
+from aurora_core.spec.flight_order import begins_where_it_is, stays_where_it_is
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Unit
 from aurora_core.spec.parking import parks
 from aurora_core.spec.prohibitions import (
@@ -240,7 +240,7 @@ def _flights(spec: ScenarioSpec) -> Iterator[ElementReport]:
     for uav, own in groupby(sorted(spec.missions, key=lambda m: m.uav), key=lambda m: m.uav):
         for k, mission in enumerate(own):
             after = 'then ' if k else ''
-            stays = stays_where_it_is(spec, mission)
+            stays = stays_where_it_is(spec, mission) or begins_where_it_is(spec, mission)
             told = _flies(mission, leaves=mission.target in leave, stays=stays)
             text = f'{uav} {after}{told}'
             assumed = _named_numbers(mission, stated=False)
@@ -260,7 +260,8 @@ def _flies(mission: UavMission, *, leaves: bool, stays: bool) -> str:
             what = f'tracks {target}'
         case MissionMode.NAVIGATE:
             pattern = mission.pattern.value if mission.pattern is not None else 'route'
-            what = f'flies the pattern {pattern} at {target}'
+            where = 'from where it is' if stays else f'at {target}'
+            what = f'flies the pattern {pattern} {where}'
             if mission.start is not None:
                 what = f'flies from {_place(mission.start)} to {target}'
     if mission.side is not None:

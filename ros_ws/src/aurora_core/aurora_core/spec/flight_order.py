@@ -115,6 +115,23 @@ def stays_where_it_is(spec: ScenarioSpec, mission: UavMission) -> bool:
     return next(m.id for m in spec.missions if m.uav == mission.uav) != mission.id
 
 
+def begins_where_it_is(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a pattern begins where the mission before has led its UAV: no place is named.
+
+    Where a tracking ends that an event may end nobody knows before the run.
+    """
+    nowhere = mission.target is None and mission.start is None and mission.pattern is not None
+    if not nowhere or mission.over_streets:
+        return False
+    own = [m for m in spec.missions if m.uav == mission.uav]
+    # A mission that grounding has raised is still the one of its id.
+    number = next(k for k, m in enumerate(own) if m.id == mission.id)
+    placed = [m for m in own[:number] if not stays_where_it_is(spec, m)]
+    if not placed:
+        return False
+    return placed[-1].mode is not MissionMode.TRACK or left_by(spec, placed[-1]) is None
+
+
 def keeps_altitude(spec: ScenarioSpec, mission: UavMission) -> bool:
     """Tell whether a UAV that stays where it is stays as high, too: no altitude is stated."""
     is_open = mission.altitude_m.provenance is not Provenance.EXPLICIT

@@ -79,6 +79,7 @@ class Stage:
         parted: Who waits until whom is how far away (m).
         halts: Where persons wait who have walked there to cross; all of them are persons then.
         stops_s: How long who halts stands there.
+        tops_mps: How fast each is at most by itself.
         tracks: UAV id -> target of its one mission, '' = no mission at all.
         links: UAV or agent pairs with a link.
         hold_s: Length of the track missions.
@@ -97,6 +98,7 @@ class Stage:
     halts: dict[str, tuple[float, float]] = field(default_factory=dict)
     stops_s: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
+    tops_mps: dict[str, float] = field(default_factory=dict)
     tracks: dict[str, str] = field(default_factory=lambda: {'uav1': 'van1'})
     links: tuple[tuple[str, str], ...] = ()
     events: tuple[Event, ...] = ()
@@ -250,6 +252,7 @@ class Stage:
             drive_speed_mps=self.speeds.get(agent),
             halt_xy_m=self.halts.get(agent),
             stop_s=self.stops_s.get(agent),
+            top_speed_mps=self.tops_mps.get(agent),
         )
 
     def _uav_plans(self) -> list[UavPlan]:

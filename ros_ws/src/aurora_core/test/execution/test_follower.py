@@ -129,3 +129,89 @@ def test_of_two_beside_one_another_a_told_speed_stays(
     told = [v for _, agent, k, v in scene.commands() if agent == 'van1' and k == SPEED]
     assert told == [pytest.approx(6.0 - 0.4 * 5.0)]
     assert all(v == 6.0 for v in _of_ego(scene, SPEED))
+
+
+@pytest.mark.parametrize(
+    ('tops_mps', 'told'),
+    [
+        ({'ego': 5.0}, 'van1'),  # however it is called: a cyclist, or a tractor
+        ({'van1': 5.0}, 'ego'),
+        ({}, 'ego'),
+        ({'ego': 20.0, 'van1': 30.0}, 'van1'),
+    ],
+)
+def test_of_two_beside_one_another_the_faster_one_keeps_level(
+    tops_mps: dict[str, float], told: str, stage: Build
+) -> None:
+    """The slower one could not catch up with the other one."""
+    scene = _abreast(stage, Relation.BESIDE, tops_mps=tops_mps)
+    scene.put('van1', 200.0, 3.3, 4.0).put('ego', 195.0, speed=4.0).step(3)
+    assert {agent for _, agent, kind, _ in scene.commands() if kind == SPEED} == {told}
+
+
+def test_of_two_beside_one_another_a_bound_holds(stage: Build) -> None:
+    """Who may go no faster than 6 m/s is the one that is kept level with."""
+    scene = _abreast(stage, Relation.BESIDE, speeds={'ego': 6.0})
+    scene.put('van1', 200.0, 3.3, 6.0).put('ego', 195.0, speed=6.0).step(3)
+    told = [v for _, agent, k, v in scene.commands() if agent == 'van1' and k == SPEED]
+    assert told == [pytest.approx(6.0 - 0.4 * 5.0)]
+
+
+@pytest.mark.parametrize(('relation', 'off_m'), [(Relation.AHEAD, 10.0), (Relation.BEHIND, -10.0)])
+def test_who_is_ahead_on_the_lane_beside_is_kept_to(
+    relation: Relation, off_m: float, parameter: Callable[..., Parameter], stage: Build
+) -> None:
+    """10 m between their centres, whoever of the two is in front."""
+    placements = (
+        Placement(relation=Relation.ADJACENT_LANE, of='van1'),
+        Placement(
+            relation=relation, of='van1', distance_m=parameter(10.0, 'm'), kept_in_motion=True
+        ),
+    )
+    drives = Behavior(kind=BehaviorKind.DRIVE, speed_mps=parameter(9.0, 'm/s'))
+    scene = stage(
+        tracks={}, placements={'ego': placements}, behaviors={'ego': (drives,)}, lanes=STREET
+    )
+    scene.put('van1', 200.0, 3.3, 9.0).put('ego', 205.0, speed=9.0).step()
+    told = [v for _, agent, k, v in scene.commands() if agent == 'van1' and k == SPEED]
+    assert told == [pytest.approx(9.0 + 0.4 * (5.0 - off_m))]
+
+
+def _braking(stage: Build, parameter: Callable[..., Parameter], *more: Event) -> Any:
+    at_once = TimeTrigger(on='time', at_s=parameter(0.0, 's'))
+    brakes = Event(id='e1', trigger=at_once, action=AgentAction(do='brake', agent='ego'))
+    scene = _scene(stage, events=(brakes, *more))
+    scene.put('van1', 200.0, speed=6.0).put('ego', 180.0, speed=8.0).step()
+    return scene.put('van1', 205.0, speed=3.0).put('ego', 185.0, speed=0.0)
+
+
+def test_who_follows_and_has_braked_drives_on_after_the_other_one(
+    stage: Build, parameter: Callable[..., Parameter]
+) -> None:
+    """It stands for as long as a stop is, and goes on once: a braking is no parking."""
+    scene = _braking(stage, parameter)
+    before = len(_of_ego(scene, FREE))
+    scene.step(20)
+    assert len(_of_ego(scene, FREE)) == before
+    scene.step(60)
+    assert len(_of_ego(scene, FREE)) > before
+
+
+def test_who_has_braked_stands_behind_one_that_stands(
+    stage: Build, parameter: Callable[..., Parameter]
+) -> None:
+    scene = _braking(stage, parameter)
+    before = len(_of_ego(scene, FREE))
+    scene.put('van1', 205.0, speed=0.0).step(80)
+    assert len(_of_ego(scene, FREE)) == before
+
+
+def test_who_is_told_what_comes_after_braking_waits_for_that(
+    stage: Build, parameter: Callable[..., Parameter]
+) -> None:
+    later = TimeTrigger(on='time', at_s=parameter(100.0, 's'))
+    start = Event(id='e2', trigger=later, action=AgentAction(do='start', agent='ego'))
+    scene = _braking(stage, parameter, start)
+    before = len(_of_ego(scene, FREE))
+    scene.step(80)
+    assert len(_of_ego(scene, FREE)) == before

@@ -239,3 +239,19 @@ def test_a_landmark_is_where_it_stands_and_arrived_at_on_the_road(
     trace = view.trace
     instant = InstantSight(view.geometry, trace.roster)
     assert instant.see('uav1', place, trace.ground[200], trace.uav[200])[0] is seen
+
+
+def test_who_is_ahead_on_the_lane_beside_is_so_on_the_first_pass(tb: ModuleType) -> None:
+    """The route comes back much later right where the bus stands: it is 60 m ahead, not 460."""
+    still = np.zeros(2)
+    run = tb.Run(
+        ticks=2,
+        agents=[tb.driver('ego', 'car', 0.0, still), tb.driver('bus1', 'bus', 60.0, still)],
+    )
+    run.agents[0].route = (
+        (0.0, 3.4), (200.0, 3.4), (200.0, -60.0), (-100.0, -60.0), (-100.0, 0.0), (200.0, 0.0),
+    )  # fmt: skip
+    run.agents[0].y = np.full(2, 3.4)
+    view = RunView(run.trace(), tb.world())
+    along = along_route(view, view.body('ego'), view.body('bus1'))
+    assert along.lead_m == pytest.approx([60, 60])
