@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -21,9 +21,11 @@ import duckdb
 import pytest
 from distributed import Client
 
+from aurora_bench.campaign import command
 from aurora_bench.campaign.__main__ import main
-from aurora_bench.campaign.command import run_campaign
-from aurora_bench.campaign.plan import PlanError
+from aurora_bench.campaign.plan import PlanError, Task
+from aurora_bench.campaign.record import CampaignRun
+from aurora_cli.pool import Work
 
 HERE = Path(__file__).parent
 ONE = 'configurations: [B4]\n'
@@ -55,11 +57,23 @@ def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(HERE))
 
 
+@pytest.fixture
+def here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Start no worker: what is asked is about plan, journal and table, whoever does the work."""
+
+    def in_turn(work: Work[Task, CampaignRun], left: Sequence[Task], **_: object) -> Any:
+        work.prepare()
+        yield from enumerate(map(work, left))
+
+    monkeypatch.setattr(command, 'on_pool', in_turn)
+
+
 def run(file: Path, out: Path, **options: Any) -> int:
     """Run a campaign of cheap work."""
     make = importlib.import_module('campaign_work').cheap
     given = {'jobs': 1, 'dask': None, 'so_far': False, **options}
-    return run_campaign(SimpleNamespace(file=file, out=out, **given), make)  # type: ignore[arg-type]
+    asked: Any = SimpleNamespace(file=file, out=out, **given)
+    return command.run_campaign(asked, make)
 
 
 def table(out: Path) -> tuple[bytes, bytes]:
@@ -160,6 +174,7 @@ def test_workers_that_users_started_give_the_same_table(tmp_path: Path) -> None:
     assert table(tmp_path / 'out') == table(tmp_path / 'whole')
 
 
+@pytest.mark.usefixtures('here')
 def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
     file = plan_file(tmp_path / 'in', more='seeds: [1, 2]\n')
     assert run(file, tmp_path / 'out') == 0
@@ -172,6 +187,7 @@ def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
     assert rows == [('AURORA', 10, 8, 1.1), ('B4', 10, 8, 1.1), ('B5', 10, 8, 1.1)]
 
 
+@pytest.mark.usefixtures('here')
 def test_more_seeds_go_on_with_what_is_there(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -185,6 +201,7 @@ def test_more_seeds_go_on_with_what_is_there(
     assert table(tmp_path / 'out') == table(tmp_path / 'whole')
 
 
+@pytest.mark.usefixtures('here')
 def test_what_is_there_so_far_is_a_table_of_its_own(tmp_path: Path) -> None:
     """Of two seeds one was run: its table holds it alone, and names the others."""
     one = plan_file(tmp_path / 'in', more=f'{ONE}seeds: [1]\n')
@@ -199,6 +216,7 @@ def test_what_is_there_so_far_is_a_table_of_its_own(tmp_path: Path) -> None:
     assert run(both, tmp_path / 'out') == 0
 
 
+@pytest.mark.usefixtures('here')
 def test_another_campaign_is_not_mixed_in(tmp_path: Path) -> None:
     assert run(plan_file(tmp_path / 'in'), tmp_path / 'out') == 0
     other = plan_file(tmp_path / 'in', more=f'{ONE}repair: 3\n')
