@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import io
 import json
 import re
@@ -21,7 +22,12 @@ from aurora_cli import installed
 from aurora_cli.commands import verify
 from aurora_cli.main import run_command_line
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_path
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.pipeline import verify_run
+from aurora_core.pipeline.knowledge import Knowledge
+from aurora_core.pipeline.verification import Judged, judge_content, load_bag
 from aurora_core.report import run_check
+from aurora_core.trace.bag_content import BagContent
 
 Call = Callable[..., SimpleNamespace]
 
@@ -75,11 +81,36 @@ def edited(path: Path, change: Callable[[dict[str, Any]], Any]) -> None:
 
 @contextmanager
 def judged_once() -> Iterator[None]:
-    """Have what is judged in here judged once, however often it is told."""
+    """Have the same bag judged once, however often it is told and whatever lies beside it."""
     with pytest.MonkeyPatch.context() as patch:
-        for name in ('load_bag', 'verify_found'):
-            patch.setattr(verify, name, first_answer(getattr(verify, name)))
+        patch.setattr(verify, 'load_bag', lambda bag: loaded(bag, bytes_of(bag)))
+        patch.setattr(verify_run, 'judge_content', judged)
+        patch.setattr(verify, 'verify_found', first_answer(verify.verify_found))
         yield
+
+
+def bytes_of(bag: Path) -> str:
+    """Return a digest of a bag's name, of what lies in it and of every byte there."""
+    files = sorted(path for path in (bag.rglob('*') if bag.is_dir() else (bag,)) if path.is_file())
+    named = (f'{path.relative_to(bag.parent)}\0'.encode() + path.read_bytes() for path in files)
+    return hashlib.sha256(b'\0'.join(hashlib.sha256(data).digest() for data in named)).hexdigest()
+
+
+READ: dict[str, tuple[BagContent, Agsg]] = {}
+JUDGED: dict[int, Judged] = {}
+
+
+def loaded(bag: Path, digest: str) -> tuple[BagContent, Agsg]:
+    if digest not in READ:
+        READ[digest] = load_bag(bag)
+    return READ[digest]
+
+
+def judged(known: Knowledge, content: BagContent, agsg: Agsg, *, as_recorded: bool) -> Judged:
+    assert not as_recorded
+    if id(content) not in JUDGED:
+        JUDGED[id(content)] = judge_content(known, content, agsg)
+    return JUDGED[id(content)]
 
 
 def first_answer(function: Callable[..., Any]) -> Callable[..., Any]:
