@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import os
 import signal
@@ -19,6 +18,7 @@ from typing import Any
 
 import duckdb
 import pytest
+from campaign_work import cheap
 from distributed import Client
 
 from aurora_bench.campaign import command
@@ -27,7 +27,7 @@ from aurora_bench.campaign.plan import PlanError, Task
 from aurora_bench.campaign.record import CampaignRun
 from aurora_cli.pool import Work
 
-HERE = Path(__file__).parent
+HELPERS = Path(__file__).parents[1] / 'helpers'
 ONE = 'configurations: [B4]\n'
 PROMPTS = ('one', 'two fails', 'three', 'four', 'five')
 
@@ -51,12 +51,6 @@ def plan_file(folder: Path, prompts: tuple[str, ...] = PROMPTS, more: str = ONE)
     return path
 
 
-@pytest.fixture(autouse=True)
-def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let workers import the cheap work."""
-    monkeypatch.syspath_prepend(str(HERE))
-
-
 @pytest.fixture
 def here(monkeypatch: pytest.MonkeyPatch) -> None:
     """Start no worker: what is asked is about plan, journal and table, whoever does the work."""
@@ -70,10 +64,9 @@ def here(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def run(file: Path, out: Path, **options: Any) -> int:
     """Run a campaign of cheap work."""
-    make = importlib.import_module('campaign_work').cheap
     given = {'jobs': 1, 'dask': None, 'so_far': False, **options}
     asked: Any = SimpleNamespace(file=file, out=out, **given)
-    return command.run_campaign(asked, make)
+    return command.run_campaign(asked, cheap)
 
 
 def table(out: Path) -> tuple[bytes, bytes]:
@@ -86,7 +79,7 @@ def test_a_killed_runner_goes_on_to_the_same_table(tmp_path: Path) -> None:
     assert run(file, tmp_path / 'whole') == 0
     code = (
         'import sys, time; from types import SimpleNamespace as N; from pathlib import Path\n'
-        f'sys.path.insert(0, {str(HERE)!r})\n'
+        f'sys.path.insert(0, {str(HELPERS)!r})\n'
         'from aurora_bench.campaign.command import run_campaign; from campaign_work import cheap\n'
         'import aurora_bench.campaign.command as c\n'
         'add = c.Journal.add\n'
@@ -132,7 +125,7 @@ def started_as_users_do(folder: Path, workers: int) -> Iterator[str]:
     place = folder / 'scheduler.json'
     environment = {
         **os.environ,
-        'PYTHONPATH': os.pathsep.join([str(HERE), os.environ.get('PYTHONPATH', '')]),
+        'PYTHONPATH': os.pathsep.join([str(HELPERS), os.environ.get('PYTHONPATH', '')]),
     }
     scheduler = ['scheduler', '--host', '127.0.0.1', '--port', '0', '--no-dashboard']
     worker = ['worker', '--nthreads', '1', '--no-dashboard', '--host', '127.0.0.1']
