@@ -5,9 +5,8 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
+import signal
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +23,8 @@ from aurora_core.trace.bag_reader import bag_files
 from aurora_msgs.action import RunScenario
 from aurora_ros import interfaces as on
 from aurora_ros.cdr import run_and_tick, time_ns
+from aurora_ros.matching import wait_until
+from aurora_ros.testing.forked import ForkedNode
 from aurora_system_tests.graph import RunningGraph, running_graph
 from aurora_system_tests.intruder import NAME, TOPICS
 from aurora_system_tests.second_server import CALLS
@@ -54,26 +55,18 @@ def graph(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningGraph]:
 
 
 @contextmanager
-def intruder(
-    graph: RunningGraph, *arguments: str, kind: str = 'intruder'
-) -> Iterator[subprocess.Popen[str]]:
+def intruder(graph: RunningGraph, *arguments: str, kind: str = 'intruder') -> Iterator[ForkedNode]:
     """Have an intruder in the domain of a graph; it ends properly and leaves no lease."""
     domain = graph.play.node.context.get_domain_id()
-    process = subprocess.Popen(
-        [sys.executable, '-m', f'aurora_system_tests.{kind}', *arguments],
-        env={**os.environ, 'ROS_DOMAIN_ID': str(domain)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
+    folder = Path(tempfile.mkdtemp(dir=graph.runs.parent))
+    process = ForkedNode(f'aurora_system_tests.{kind}', domain, folder, arguments)
     try:
-        assert process.stdout is not None
-        assert process.stdout.readline() == 'ready\n'
+        assert wait_until(lambda: process.log == 'ready\n', LIMIT_S), process.log
         yield process
     finally:
-        process.terminate()
+        process.send(signal.SIGTERM)
         try:
-            process.communicate(timeout=LIMIT_S)
+            process.wait(LIMIT_S)
         finally:
             process.kill()  # whoever missed the signal would write into the next test's domain
 
@@ -152,7 +145,7 @@ def run_beside_a_passer_by(graph: RunningGraph, kind: str) -> Any:
     with intruder(graph, kind, '--passing') as passing:
         result = run(graph)
         for _ in range(4):  # where discovery is slow, a run is over before it could write
-            if result.status != 'verified' or passing.poll() is not None:
+            if result.status != 'verified' or passing.has_ended:
                 break
             result = run(graph)
     return result
