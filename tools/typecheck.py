@@ -54,6 +54,7 @@ def main() -> int:
         for file in folder.rglob('*.py')
         if file.name != 'setup.py' and '__pycache__' not in file.parts
     )
+    folders += [folder / 'test' / 'helpers' for folder in folders]
     folders += [ROOT / 'tools' / 'aurora_setup', ROOT / 'config' / 'maps']
     environment = {**os.environ, 'MYPYPATH': os.pathsep.join(map(str, folders))}
     failed = False

@@ -98,7 +98,7 @@ class Campaign:
         """Run an executor with a planted bug."""
         stages = SabotagedStages(planted.sabotage)
         report, bag = run_prompt(planted.name, planted.prompt, 1, self.folder, stages)
-        names = names_of(verify_stage(installed(), bag, recompute=False))
+        names = names_of(stages.judged.verdict) if stages.judged is not None else frozenset()
         good = report.status in ('violated', 'inconclusive') and bool(names & planted.names)
         return Outcome(
             kind='planted bug',

@@ -4,14 +4,13 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -19,13 +18,16 @@ from typing import Any
 
 import duckdb
 import pytest
+from campaign_work import cheap
 from distributed import Client
 
+from aurora_bench.campaign import command
 from aurora_bench.campaign.__main__ import main
-from aurora_bench.campaign.command import run_campaign
-from aurora_bench.campaign.plan import PlanError
+from aurora_bench.campaign.plan import PlanError, Task
+from aurora_bench.campaign.record import CampaignRun
+from aurora_cli.pool import Work
 
-HERE = Path(__file__).parent
+HELPERS = Path(__file__).parents[1] / 'helpers'
 ONE = 'configurations: [B4]\n'
 PROMPTS = ('one', 'two fails', 'three', 'four', 'five')
 
@@ -49,17 +51,22 @@ def plan_file(folder: Path, prompts: tuple[str, ...] = PROMPTS, more: str = ONE)
     return path
 
 
-@pytest.fixture(autouse=True)
-def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let workers import the cheap work."""
-    monkeypatch.syspath_prepend(str(HERE))
+@pytest.fixture
+def here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Start no worker: what is asked is about plan, journal and table, whoever does the work."""
+
+    def in_turn(work: Work[Task, CampaignRun], left: Sequence[Task], **_: object) -> Any:
+        work.prepare()
+        yield from enumerate(map(work, left))
+
+    monkeypatch.setattr(command, 'on_pool', in_turn)
 
 
 def run(file: Path, out: Path, **options: Any) -> int:
     """Run a campaign of cheap work."""
-    make = importlib.import_module('campaign_work').cheap
     given = {'jobs': 1, 'dask': None, 'so_far': False, **options}
-    return run_campaign(SimpleNamespace(file=file, out=out, **given), make)  # type: ignore[arg-type]
+    asked: Any = SimpleNamespace(file=file, out=out, **given)
+    return command.run_campaign(asked, cheap)
 
 
 def table(out: Path) -> tuple[bytes, bytes]:
@@ -72,7 +79,7 @@ def test_a_killed_runner_goes_on_to_the_same_table(tmp_path: Path) -> None:
     assert run(file, tmp_path / 'whole') == 0
     code = (
         'import sys, time; from types import SimpleNamespace as N; from pathlib import Path\n'
-        f'sys.path.insert(0, {str(HERE)!r})\n'
+        f'sys.path.insert(0, {str(HELPERS)!r})\n'
         'from aurora_bench.campaign.command import run_campaign; from campaign_work import cheap\n'
         'import aurora_bench.campaign.command as c\n'
         'add = c.Journal.add\n'
@@ -118,7 +125,7 @@ def started_as_users_do(folder: Path, workers: int) -> Iterator[str]:
     place = folder / 'scheduler.json'
     environment = {
         **os.environ,
-        'PYTHONPATH': os.pathsep.join([str(HERE), os.environ.get('PYTHONPATH', '')]),
+        'PYTHONPATH': os.pathsep.join([str(HELPERS), os.environ.get('PYTHONPATH', '')]),
     }
     scheduler = ['scheduler', '--host', '127.0.0.1', '--port', '0', '--no-dashboard']
     worker = ['worker', '--nthreads', '1', '--no-dashboard', '--host', '127.0.0.1']
@@ -160,6 +167,7 @@ def test_workers_that_users_started_give_the_same_table(tmp_path: Path) -> None:
     assert table(tmp_path / 'out') == table(tmp_path / 'whole')
 
 
+@pytest.mark.usefixtures('here')
 def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
     file = plan_file(tmp_path / 'in', more='seeds: [1, 2]\n')
     assert run(file, tmp_path / 'out') == 0
@@ -172,6 +180,7 @@ def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
     assert rows == [('AURORA', 10, 8, 1.1), ('B4', 10, 8, 1.1), ('B5', 10, 8, 1.1)]
 
 
+@pytest.mark.usefixtures('here')
 def test_more_seeds_go_on_with_what_is_there(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -185,6 +194,7 @@ def test_more_seeds_go_on_with_what_is_there(
     assert table(tmp_path / 'out') == table(tmp_path / 'whole')
 
 
+@pytest.mark.usefixtures('here')
 def test_what_is_there_so_far_is_a_table_of_its_own(tmp_path: Path) -> None:
     """Of two seeds one was run: its table holds it alone, and names the others."""
     one = plan_file(tmp_path / 'in', more=f'{ONE}seeds: [1]\n')
@@ -199,6 +209,7 @@ def test_what_is_there_so_far_is_a_table_of_its_own(tmp_path: Path) -> None:
     assert run(both, tmp_path / 'out') == 0
 
 
+@pytest.mark.usefixtures('here')
 def test_another_campaign_is_not_mixed_in(tmp_path: Path) -> None:
     assert run(plan_file(tmp_path / 'in'), tmp_path / 'out') == 0
     other = plan_file(tmp_path / 'in', more=f'{ONE}repair: 3\n')

@@ -6,12 +6,13 @@ from __future__ import annotations
 
 import copy
 import dataclasses
+import functools
 
 import pytest
 
 from aurora_bench.feasibility.corrupt import corrupted
 from aurora_bench.feasibility.families import Case, family_cases, typed_cases
-from aurora_bench.feasibility.judge import judged
+from aurora_bench.feasibility.judge import Judged, judged
 from aurora_bench.feasibility.other_maps import rests_on_map
 from aurora_bench.feasibility.pushes import PUSHES, push_cases
 from aurora_cli.installed import installed
@@ -25,9 +26,16 @@ CASES = tuple(
 )
 
 
+@functools.cache
+def result_of(ident: str) -> Judged:
+    """Judge a case once, however many tests look at what is said of it."""
+    (case,) = (c for c in CASES if c.id == ident)
+    return judged(installed(), 'downtown', case)
+
+
 @pytest.mark.parametrize('case', CASES, ids=lambda case: case.id)
 def test_what_cannot_be_is_refused_and_its_neighbour_is_not(case: Case) -> None:
-    result = judged(installed(), 'downtown', case)
+    result = result_of(case.id)
     assert result.refused is case.must_be_refused
     assert not result.refused or result.right_reason
     assert all(result.valid)
@@ -39,7 +47,7 @@ ONCE = [c for c in CASES if c.must_be_refused and c.id.endswith('-refused-1')]
 @pytest.mark.parametrize('case', ONCE, ids=lambda case: case.id)
 def test_what_could_be_asked_instead_is_not_refused(case: Case) -> None:
     """Each value alone, unless a proof that has nothing to do with it is left."""
-    result = judged(installed(), 'downtown', case)
+    result = result_of(case.id)
     if len(result.certificates) > 1:
         pytest.skip('it is refused for several reasons')
     for mend in result.certificates[0].mends:
@@ -54,12 +62,12 @@ def test_what_could_be_asked_instead_is_not_refused(case: Case) -> None:
 
 def test_most_refusals_are_told_with_a_value_that_can_be() -> None:
     """None where no number of the request is at fault, or one alone mends nothing."""
-    told = [p for c in ONCE for p in judged(installed(), 'downtown', c).certificates]
+    told = [p for c in ONCE for p in result_of(c.id).certificates]
     assert len([p for p in told if p.mends]) >= 0.9 * len(told)
 
 
 def test_corrupted_certificates_are_rejected() -> None:
-    results = [judged(installed(), 'downtown', case) for case in CASES[::3]]
+    results = [result_of(case.id) for case in CASES[::3]]
     broken = corrupted(results, 300, 1)
     assert len(broken) > 100
     assert [b for b in broken if b.accepted] == []
@@ -86,5 +94,5 @@ def test_what_needs_the_map_is_known_as_such() -> None:
     """Proofs by zones and landmarks are held against other maps; a limit is one everywhere."""
     asked = {'geofence-over-refused-1': True, 'sensing-elsewhere-refused-1': True}
     for ident, expected in (asked | {'space-altitude-refused-1': False}).items():
-        result = judged(installed(), 'downtown', next(c for c in CASES if c.id == ident))
+        result = result_of(ident)
         assert [rests_on_map(p) for p in result.certificates] == [expected], ident

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import json
 import multiprocessing
 import os
@@ -15,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from ruler_work import CheapWork, contradicts_missions
 
 from aurora_bench.outcome.__main__ import OUTCOME
 from aurora_bench.progress import Progress
@@ -36,12 +36,9 @@ LAST = 'realised 2 of 5 feasible  0.400 [0.118, 0.769]  silent failures 1  unche
 
 
 @pytest.fixture
-def cheap(monkeypatch: pytest.MonkeyPatch) -> Ruler:
+def cheap() -> Ruler:
     """Return the ruler `realise` without runs."""
-    monkeypatch.syspath_prepend(str(Path(__file__).parent))
-    work = importlib.import_module('ruler_work').CheapWork
-
-    return replace(REALISE, work=lambda _options, folder: work(folder=folder))
+    return replace(REALISE, work=lambda _options, folder: CheapWork(folder=folder))
 
 
 @pytest.fixture
@@ -210,10 +207,8 @@ def test_the_command_line_knows_the_rulers(
 
 @pytest.mark.timeout(300)
 def test_real_runs_are_judged_by_monitor_and_checker(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.syspath_prepend(str(Path(__file__).parent))
-    helpers = importlib.import_module('ruler_work')
     hover: Doc = {
         'id': 'hover-901', 'category': 'hover', 'feasibility': 'feasible',
         'prompt': 'A drone hovers over City Hall at 60 m for 5 seconds.',
@@ -243,9 +238,9 @@ def test_real_runs_are_judged_by_monitor_and_checker(
         assert measure(replace(ruler, work=make), [str(path)]) == 0
         return capsys.readouterr().out.splitlines()[-1]
 
-    against = last(REALISE, helpers.contradicts_missions)
+    against = last(REALISE, contradicts_missions)
     assert against.startswith('realised 0 of 1 feasible  ')
     assert against.endswith('  silent failures 1  unchecked 0 of 2')
-    against = last(OUTCOME, helpers.contradicts_missions)
+    against = last(OUTCOME, contradicts_missions)
     assert against.startswith('right outcome 1 of 2  0.500 ')  # the refusal is right
     assert against.endswith('  silent failures 1  unchecked 0 of 2')

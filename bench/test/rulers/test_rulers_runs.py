@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-import importlib
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from ruler_work import breaks, contradicts_missions
 
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.rulers import runs
@@ -59,12 +59,6 @@ def verified(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(runs, 'run', run)
 
 
-def helper(monkeypatch: pytest.MonkeyPatch, name: str) -> Any:
-    """Return a checker for tests."""
-    monkeypatch.syspath_prepend(str(Path(__file__).parent))
-    return getattr(importlib.import_module('ruler_work'), name)
-
-
 def test_what_cannot_be_said_is_not_realised_and_nothing_is_run(tmp_path: Path) -> None:
     found = RealiseWork(folder=tmp_path)(trial({**HOVER, 'mode': 'navigate', 'pattern': 'facade'}))
     assert (found.status, found.cause) == ('not_expressible', Cause.CAPABILITY)
@@ -72,10 +66,8 @@ def test_what_cannot_be_said_is_not_realised_and_nothing_is_run(tmp_path: Path) 
 
 
 @pytest.mark.usefixtures('verified')
-def test_a_checker_that_breaks_has_confirmed_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    work = RealiseWork(folder=tmp_path, check=helper(monkeypatch, 'breaks'))
+def test_a_checker_that_breaks_has_confirmed_nothing(tmp_path: Path) -> None:
+    work = RealiseWork(folder=tmp_path, check=breaks)
     found = work(trial(HOVER))
     assert (found.status, found.right, found.cause) == ('verified', False, Cause.ERROR)
     assert found.words == ("checker: KeyError: 'no topic'",)
@@ -83,11 +75,8 @@ def test_a_checker_that_breaks_has_confirmed_nothing(
 
 @pytest.mark.usefixtures('verified')
 @pytest.mark.parametrize('keep', [True, False])
-def test_a_bag_goes_after_it_was_checked_unless_it_is_kept(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, keep: bool
-) -> None:
-    check = helper(monkeypatch, 'contradicts_missions')
-    work = RealiseWork(folder=tmp_path, keep=keep, check=check)
+def test_a_bag_goes_after_it_was_checked_unless_it_is_kept(tmp_path: Path, keep: bool) -> None:
+    work = RealiseWork(folder=tmp_path, keep=keep, check=contradicts_missions)
     beyond = {'id': 'r3', 'kind': 'beyond', 'text': 'quietly'}
     found = work(trial(HOVER, beyond))
     assert (found.right, found.cause, found.words) == (False, Cause.CONTRADICTED, ('mission',))

@@ -13,6 +13,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from run_folders import copied, made
 
 from aurora_cli.main import run_command_line
 
@@ -80,3 +81,28 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     report = json.loads(done.stdout)
     folder = home / 'runs' / report['run_id']
     return SimpleNamespace(home=home, folder=folder, report=report, process=done)
+
+
+@pytest.fixture(scope='session')
+def failed(finished: SimpleNamespace, shell: SimpleNamespace) -> Path:
+    """A violated run of the same prompt, map and seed."""
+    fault = '{"kind": "target_removed", "subject": "ego", "at_s": 3.0}'
+    return made(finished, shell.prompt, '--fault', fault, status='violated')
+
+
+@pytest.fixture(scope='session')
+def other_seed(finished: SimpleNamespace, shell: SimpleNamespace) -> Path:
+    """A verified run of the same prompt with another seed."""
+    return made(finished, shell.prompt, '--seed', '2')
+
+
+@pytest.fixture(scope='session')
+def other_prompt(finished: SimpleNamespace, shell: SimpleNamespace) -> Path:
+    """A verified run of another prompt."""
+    return made(finished, shell.prompt.replace('20 meters', '30 meters'))
+
+
+@pytest.fixture
+def run(here: Path, finished: SimpleNamespace) -> Path:
+    """A copy of the verified run."""
+    return copied(here, finished.folder)

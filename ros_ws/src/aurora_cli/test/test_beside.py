@@ -25,15 +25,20 @@ from aurora_core.pipeline.stages import RunRequest
 
 MAIN = 'from aurora_cli.main import main; main()'
 # Nowhere does a car get as fast: other places are tried in vain.
-PROMPT = 'A drone tracks a car. When the car is faster than 24 m/s, the drone alerts the ego car.'
+PROMPT = (
+    'A scenario of 30 seconds. A drone tracks a car. When the car is faster than 24 m/s, the '
+    'drone alerts the ego car.'
+)
+# There is a second to end it in.
+LONG = PROMPT.replace('30', '90')
 RUN_ID = '20260131T120000Z-0a1b2c'
 
 
-def started(folder: Path, *options: str) -> subprocess.Popen[bytes]:
+def started(folder: Path, *options: str, prompt: str = PROMPT) -> subprocess.Popen[bytes]:
     """Start a run whose processes have a folder of their own for what is temporary."""
     (folder / 'temporary').mkdir(parents=True)
     return subprocess.Popen(
-        [sys.executable, '-c', MAIN, 'run', PROMPT, '--repair', '2', '--json', *options],
+        [sys.executable, '-c', MAIN, 'run', prompt, '--repair', '2', '--json', *options],
         cwd=folder,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
@@ -67,7 +72,7 @@ def test_other_processes_give_the_same_run(
 def test_what_ends_in_the_middle_leaves_nothing_of_what_was_executed_ahead(
     tmp_path: Path, number: signal.Signals
 ) -> None:
-    process = started(tmp_path, '--jobs', '2')
+    process = started(tmp_path, '--jobs', '2', prompt=LONG)
     temporary = tmp_path / 'temporary'
     deadline = time.monotonic() + 240.0
     while not list(temporary.glob(f'aurora_beside_{process.pid}_*/*/bag.*/*.mcap')):

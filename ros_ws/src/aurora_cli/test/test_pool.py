@@ -4,25 +4,17 @@
 
 from __future__ import annotations
 
-import importlib
 import multiprocessing
 from collections.abc import Sequence
 from contextlib import closing
-from pathlib import Path
 from typing import Any
 
 import pytest
+from pool_work import Squares
 
 from aurora_cli.pool import Lost, Pool, PoolError, run_tasks
 
 LIMIT_S = 60.0
-
-
-@pytest.fixture
-def squares(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Return the class of the work; workers take over the search path."""
-    monkeypatch.syspath_prepend(str(Path(__file__).parent))
-    return importlib.import_module('pool_work').Squares
 
 
 def done(
@@ -42,10 +34,10 @@ def done(
     return found, workers
 
 
-def test_any_number_of_workers_gives_the_same_and_each_does_many_tasks(squares: Any) -> None:
+def test_any_number_of_workers_gives_the_same_and_each_does_many_tasks() -> None:
     tasks = [('', k) for k in range(12)]
-    alone, one = done(squares(), tasks, jobs=1)
-    together, several = done(squares(), tasks, jobs=3)
+    alone, one = done(Squares(), tasks, jobs=1)
+    together, several = done(Squares(), tasks, jobs=3)
     assert alone == together == {k: k * k for k in range(12)}
     assert len(one) == 1
     assert 1 <= len(several) <= 3
@@ -56,50 +48,46 @@ def test_any_number_of_workers_gives_the_same_and_each_does_many_tasks(squares: 
     [('exit', 'died with exit code 7'), ('crash', 'died of SIGKILL'), ('raise', 'cannot square')],
 )
 @pytest.mark.parametrize('jobs', [1, 2])
-def test_a_lost_task_is_named_and_the_others_are_done(
-    squares: Any, word: str, why: str, jobs: int
-) -> None:
-    found, _ = done(squares(), [('', 0), ('', 1), (word, 2), ('', 3), (word, 4)], jobs=jobs)
+def test_a_lost_task_is_named_and_the_others_are_done(word: str, why: str, jobs: int) -> None:
+    found, _ = done(Squares(), [('', 0), ('', 1), (word, 2), ('', 3), (word, 4)], jobs=jobs)
     assert why in str(found.pop(2))
     assert why in str(found.pop(4))
     assert found == {0: 0, 1: 1, 3: 9}
 
 
-def test_a_worker_that_hangs_is_ended_and_replaced(squares: Any) -> None:
-    found, workers = done(squares(), [('', 3), ('hang', 0), ('', 5)], jobs=1, limit_s=3.0)
+def test_a_worker_that_hangs_is_ended_and_replaced() -> None:
+    found, workers = done(Squares(), [('', 3), ('hang', 0), ('', 5)], jobs=1, limit_s=3.0)
     assert 'no answer within 3 s' in str(found.pop(1))
     assert found == {0: 9, 2: 25}
     assert len(workers) == 2
 
 
-def test_ctrl_c_of_the_terminal_does_not_reach_a_worker(squares: Any) -> None:
-    assert done(squares(), [('interrupt', 4)], jobs=1)[0] == {0: 16}
+def test_ctrl_c_of_the_terminal_does_not_reach_a_worker() -> None:
+    assert done(Squares(), [('interrupt', 4)], jobs=1)[0] == {0: 16}
 
 
-def test_workers_that_cannot_begin_end_the_campaign(squares: Any) -> None:
+def test_workers_that_cannot_begin_end_the_campaign() -> None:
     with pytest.raises(PoolError, match='worker 1 cannot begin: RuntimeError: no simulator'):
-        done(squares('no simulator'), [('', 1), ('', 2)], jobs=1)
+        done(Squares('no simulator'), [('', 1), ('', 2)], jobs=1)
     assert not multiprocessing.active_children()
 
 
-def test_what_a_worker_prints_is_no_answer(
-    squares: Any, capfd: pytest.CaptureFixture[str]
-) -> None:
-    done(squares(), [('', 1)], jobs=1)
+def test_what_a_worker_prints_is_no_answer(capfd: pytest.CaptureFixture[str]) -> None:
+    done(Squares(), [('', 1)], jobs=1)
     printed = capfd.readouterr()
     assert (printed.out, 'loading' in printed.err) == ('', True)
 
 
-def test_who_stops_listening_ends_the_workers(squares: Any) -> None:
-    answers = run_tasks(squares(), [('', 1), ('', 2), ('', 3)], jobs=2, limit_s=LIMIT_S)
+def test_who_stops_listening_ends_the_workers() -> None:
+    answers = run_tasks(Squares(), [('', 1), ('', 2), ('', 3)], jobs=2, limit_s=LIMIT_S)
     next(answers)
     assert multiprocessing.active_children()
     answers.close()
     assert not multiprocessing.active_children()
 
 
-def test_a_task_that_is_dropped_makes_room_for_the_next(squares: Any) -> None:
-    with closing(Pool(squares(), jobs=1, limit_s=LIMIT_S)) as pool:
+def test_a_task_that_is_dropped_makes_room_for_the_next() -> None:
+    with closing(Pool(Squares(), jobs=1, limit_s=LIMIT_S)) as pool:
         pool.warm()
         assert pool.free == 0
         assert pool.look(LIMIT_S) == []

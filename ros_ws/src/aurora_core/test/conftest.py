@@ -4,15 +4,16 @@
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from collections.abc import Callable, Mapping
 from functools import cache
-from pathlib import Path
-from types import FrameType
+from types import FrameType, ModuleType
 from typing import Any
 
 import pytest
+import spec_strategies
+import trace_builder
+import trace_cases
 from hypothesis.strategies import SearchStrategy
 
 from aurora_core.grounding.ground import Grounder
@@ -190,13 +191,13 @@ def parameter() -> Callable[..., Parameter]:
 @pytest.fixture(scope='session')
 def specifications() -> SearchStrategy[ScenarioSpec]:
     """Any specification that the schema allows, for hypothesis."""
-    name = 'spec_strategies'
-    if name not in sys.modules:
-        place = Path(__file__).parent / 'spec' / f'{name}.py'
-        spec = importlib.util.spec_from_file_location(name, place)
-        assert spec is not None
-        assert spec.loader is not None
-        sys.modules[name] = module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-    strategy: SearchStrategy[ScenarioSpec] = sys.modules[name].specifications()
-    return strategy
+    return spec_strategies.specifications()
+
+
+@pytest.fixture(scope='session')
+def tb() -> ModuleType:
+    """The names of `trace_builder` and of `trace_cases`."""
+    both = ModuleType('tb')
+    for module in (trace_builder, trace_cases):
+        vars(both).update({k: v for k, v in vars(module).items() if not k.startswith('__')})
+    return both

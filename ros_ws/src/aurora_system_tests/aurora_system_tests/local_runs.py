@@ -13,6 +13,7 @@ from aurora_cli.installed import installed
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest, Stages
+from aurora_core.report.outputs import write_report
 from aurora_core.report.run_folder import RunFolder, new_run_id
 from aurora_core.report.run_report import RunReport
 
@@ -30,7 +31,15 @@ def run_prompt(
     request = RunRequest.model_validate(asked)
     run_id = new_run_id(datetime.now(UTC), os.urandom(3))
     run_folder = RunFolder(folder / f'{name.replace(" ", "_")}_{seed}', run_id)
-    report = run(request, stages, installed(), run_folder, RunControl(), MonotonicClock())
+    report = run(
+        request,
+        stages,
+        installed(),
+        run_folder,
+        RunControl(),
+        MonotonicClock(),
+        outputs=write_report,  # nobody looks at the page
+    )
     return report, run_folder.bag_path(0)
 
 

@@ -25,7 +25,7 @@ from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.stages import RunRequest
-from aurora_core.pipeline.verification import verify_stage
+from aurora_core.pipeline.verification import judge_content, load_bag
 from aurora_core.spec.scenario import DistanceTrigger, Event
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UavPhase
@@ -85,7 +85,9 @@ class SabotagedStages(LocalStages):
 
     def verify(self, agsg: Agsg, bag: FilePath) -> Verdict:
         """Judge without the honest executor beside it, which would find every bug at once."""
-        return verify_stage(installed(), bag, recompute=False)
+        content, recorded = load_bag(bag)
+        self.judged = judge_content(self.known, content, recorded, recompute=False)
+        return self.judged.verdict
 
 
 class _LateRunner(EventRunner):

@@ -29,8 +29,8 @@ from aurora_system_tests.graph import ROS_NODES, RunningGraph, running_graph
 pytestmark = pytest.mark.ros
 
 PROMPT = (
-    'A scenario of 40 seconds. A drone ascends to 20 meters and then follows a motorcycle for '
-    '12 seconds as it drives through the streets.'
+    'A scenario of 28 seconds. A drone ascends to 10 meters and then follows a motorcycle for '
+    '5 seconds as it drives through the streets.'
 )
 LIMIT_S = 120.0
 # 5 s (and 3 s more for a node that was stopped) on a quiet machine; it would never end otherwise.

@@ -15,6 +15,7 @@ pytest.importorskip('rclpy')
 
 from aurora_nodes.modules import MODULES
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.processes import NodeProcess
 from aurora_system_tests.graph import ROS_NODES
 
@@ -28,12 +29,18 @@ SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 def alone(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[tuple[signal.Signals, dict[str, NodeProcess]]]:
-    """A signal, and every node in a domain of its own; they start side by side."""
+    """A signal, and every node in a domain of its own; they start side by side.
+
+    With one of the signals a node has an interpreter of its own, which begins and ends, too; with
+    the others it is forked off one that has imported everything.
+    """
     with ExitStack() as stack:
         started = {}
-        for name in ROS_NODES:
+        for k, name in enumerate(ROS_NODES):
+            whole = SIGNALS[k % len(SIGNALS)] is request.param
+            kind: type[NodeProcess] = NodeProcess if whole else ForkedNode
             domain = stack.enter_context(own_domain())
-            started[name] = NodeProcess(MODULES[name], domain, tmp_path_factory.mktemp(name))
+            started[name] = kind(MODULES[name], domain, tmp_path_factory.mktemp(name))
             stack.callback(started[name].kill)
         for node in started.values():
             node.await_ready()

@@ -31,8 +31,8 @@ from aurora_system_tests.graph import RunningGraph
 pytestmark = pytest.mark.ros
 
 PROMPT = (
-    'A scenario of 40 seconds. A drone ascends to 20 meters and then follows a motorcycle for '
-    '12 seconds as it drives through the streets.'
+    'A scenario of 28 seconds. A drone ascends to 10 meters and then follows a motorcycle for '
+    '5 seconds as it drives through the streets.'
 )
 LIMIT_S = 120.0
 
@@ -65,7 +65,7 @@ def test_a_prompt_twice_gives_one_verdict_and_one_trace(graph: RunningGraph) -> 
 def test_an_injected_fault_is_violated(graph: RunningGraph) -> None:
     spec = parse_stage(installed(), PROMPT, 'downtown', 1).spec
     assert spec is not None
-    fault = {'kind': 'target_removed', 'subject': spec.missions[0].target, 'at_s': 20.0}
+    fault = {'kind': 'target_removed', 'subject': spec.missions[0].target, 'at_s': 8.0}
     response = run_prompt(graph, options_json=json.dumps({'faults': [fault]}))
     assert response.status == 'violated', (response.error_msg, response.report_json)
 

@@ -19,6 +19,7 @@ from aurora_cli.local_engine import LocalStages
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.pipeline.verification import verify_stage
+from aurora_core.report.outputs import write_report
 from aurora_core.report.run_folder import RunFolder, new_run_id
 from aurora_core.report.run_report import RunReport
 from aurora_ros import interfaces as on
@@ -69,7 +70,13 @@ def run_locally(
     request = RunRequest.model_validate({'prompt': prompt, 'faults': faults})
     run_folder = RunFolder(folder, new_run_id(datetime.now(UTC), entropy.to_bytes(3, 'big')))
     report = run(
-        request, LocalStages(installed()), installed(), run_folder, RunControl(), _FrozenClock()
+        request,
+        LocalStages(installed()),
+        installed(),
+        run_folder,
+        RunControl(),
+        _FrozenClock(),
+        outputs=write_report,
     )
     return report, run_folder
 

@@ -25,9 +25,8 @@ def test_a_planted_bug_is_named(planted: Planted, tmp_path: Path) -> None:
     stages = SabotagedStages(planted.sabotage)
     report, bag = run_prompt(planted.name, planted.prompt, 1, tmp_path, stages)
     assert report.status in ('violated', 'inconclusive')
-    assert names_of(verify_stage(installed(), bag, recompute=False)) & planted.names, (
-        'by the conditions alone'
-    )
+    assert stages.judged is not None
+    assert names_of(stages.judged.verdict) & planted.names, 'by the conditions alone'
     again = verify_stage(installed(), bag)
     assert again.status is VerdictStatus.INCONCLUSIVE
     assert names_of(again) & BY_RECOMPUTATION, 'the honest executor does otherwise'

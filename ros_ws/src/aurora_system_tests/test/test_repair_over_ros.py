@@ -24,7 +24,10 @@ from aurora_system_tests.graph import RunningGraph
 pytestmark = pytest.mark.ros
 
 # Nowhere does a car get as fast: other places are tried in vain.
-PROMPT = 'A drone tracks a car. When the car is faster than 24 m/s, the drone alerts the ego car.'
+PROMPT = (
+    'A scenario of 40 seconds. A drone tracks a car. When the car is faster than 24 m/s, the '
+    'drone alerts the ego car.'
+)
 LIMIT_S = 300.0
 
 

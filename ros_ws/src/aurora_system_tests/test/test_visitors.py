@@ -24,7 +24,7 @@ from aurora_system_tests.graph import RunningGraph, running_graph
 pytestmark = pytest.mark.ros
 
 # Long enough for a call to arrive before its end.
-PROMPT = 'A drone hovers at 20 meters for 60 seconds.'
+PROMPT = 'A drone hovers at 10 meters for 20 seconds.'
 LIMIT_S = 120.0
 CALL_LIMIT_S = 10.0
 # Of the simulated run in which the visitor calls.

@@ -353,7 +353,8 @@ def stated_times_s(spec: ScenarioSpec) -> dict[str, float]:
     times_s = {
         e.id: e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)
     }
-    for _ in spec.events:
+    known = -1
+    while known != (known := len(times_s)):
         for e in spec.events:
             if isinstance(e.trigger, EventDoneTrigger) and e.trigger.event in times_s:
                 after_s = 0.0 if e.trigger.after_s is None else e.trigger.after_s.value

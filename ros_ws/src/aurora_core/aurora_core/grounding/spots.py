@@ -66,6 +66,7 @@ class SpotFinder:
         ]
         offsets.sort(key=lambda o: (o[0] * o[0] + o[1] * o[1], o))
         self._offsets = np.array(offsets)
+        self._known: dict[Point2, bool] = {}
 
     def near(self, x_m: float, y_m: float, count: int = 1) -> tuple[Point2, ...]:
         """Return up to `count` free spots, nearest first, at least two clearances apart.
@@ -99,7 +100,17 @@ class SpotFinder:
         return tuple(found)
 
     def _is_blocked(self, points: FloatArray) -> BoolArray:
-        """Return which points are nearer to what is built than the clearance."""
+        """Return which points are nearer to what is built than the clearance.
+
+        Points lie on one grid: those of a place are asked about again from all around it.
+        """
+        spots = [(x, y) for x, y in points.tolist()]
+        new = [spot for spot in spots if spot not in self._known]
+        if new:
+            self._known.update(zip(new, self._near_built(np.array(new)).tolist(), strict=True))
+        return np.array([self._known[spot] for spot in spots])
+
+    def _near_built(self, points: FloatArray) -> BoolArray:
         clearance_m = self._settings.spot_clearance_m
         spots = shapely.points(points)
         # Only the first geometry's index is used. With it the distance is rounded otherwise than

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -165,19 +165,21 @@ class RoadNetwork:
         """Return the connections that leave a lane, sorted by target lane."""
         return self._links.get(lane_id, ())
 
+    @cached_property
+    def _between(self) -> Mapping[tuple[str, str, str], Sequence[str]]:
+        """Edges from one junction to another that are of one street, in the network's order."""
+        found: dict[tuple[str, str, str], list[str]] = {}
+        for edge in self._data.edges:
+            if not edge.is_internal:
+                ends = edge.from_junction, edge.to_junction, edge.street_name
+                found.setdefault(ends, []).append(edge.id)
+        return found
+
     def opposite_edge(self, edge_id: str) -> str | None:
         """Return the edge of the same street in the other direction; None on a one-way street."""
         edge = self.edge(edge_id)
-        for other in self._data.edges:
-            if (
-                not other.is_internal
-                and other.from_junction == edge.to_junction
-                and other.to_junction == edge.from_junction
-                and other.street_name == edge.street_name
-                and other.id != edge_id
-            ):
-                return other.id
-        return None
+        back = self._between.get((edge.to_junction, edge.from_junction, edge.street_name), ())
+        return next((other for other in back if other != edge_id), None)
 
     def successors(self, edge_id: str, vclass: str) -> tuple[str, ...]:
         """Return the edges that a vehicle class can drive into from the end of an edge.

@@ -4,15 +4,14 @@
 
 from __future__ import annotations
 
-import importlib.util
 import random
 import resource
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from types import ModuleType
 
+import forging as _forging
 import numpy as np
 import pytest
 
@@ -294,12 +293,4 @@ def fuzz() -> Callable[[bytes, int], bytes]:
 @pytest.fixture(scope='session')
 def forging() -> ModuleType:
     """The names of `forging`."""
-    if 'forging' not in sys.modules:
-        path = Path(__file__).parent / 'forging.py'
-        spec = importlib.util.spec_from_file_location('forging', path)
-        assert spec is not None
-        assert spec.loader is not None
-        module = importlib.util.module_from_spec(spec)
-        sys.modules['forging'] = module
-        spec.loader.exec_module(module)
-    return sys.modules['forging']
+    return _forging

@@ -91,6 +91,11 @@ class NodeProcess:
         """Process id."""
         return self._process.pid
 
+    @property
+    def has_ended(self) -> bool:
+        """Whether it is over."""
+        return self._process.poll() is not None
+
     def await_ready(self, limit_s: float = READY_LIMIT_S) -> None:
         """Wait for the ready file.
 

@@ -4,13 +4,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
+from honest_reader import honest_reading
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.llm.check import judge
@@ -25,15 +25,6 @@ CONTEXT = ParseContext(
 # Where our own reading differs, and may: the domain of an inferred value in the middle of a stated
 # range, and the order of actors and links that are named in one breath.
 FREE = 5
-
-
-def _helper() -> Any:
-    spec = importlib.util.spec_from_file_location('honest_reader', HERE / 'honest_reader.py')
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def _scenario(spec: ScenarioSpec) -> Any:
@@ -61,7 +52,6 @@ def references() -> list[ScenarioSpec]:
 
 
 def test_honest_readings_are_taken_and_give_the_reference(references: list[ScenarioSpec]) -> None:
-    honest_reading = _helper().honest_reading
     assert len(references) > 200
     refused: dict[str, tuple[str, ...]] = {}
     different = []

@@ -29,7 +29,7 @@ from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.trace import Trace
 
-_FOLDER = Path(__file__).parent
+_FOLDER = Path(__file__).resolve().parents[1] / 'monitor'
 # Fields that say what is measured, not by what it is judged.
 _READINGS = ('side', 'part', 'after', 'setting', 'unbroken', 'background')
 
