@@ -179,7 +179,7 @@ KINDS: tuple[Kind, ...] = (
     ),
     Kind(
         name='target too fast (locked)',
-        prompt='A drone tracks a {whom} that drives at {pace} m/s.',
+        prompt='A drone tracks a {whom} for 60 seconds. The {whom} drives at {pace} m/s.',
         words={'whom': ('car', 'motorcycle'), 'pace': (21, 28)},
         cause='pace',
         good=Span(low=6.0, high=9.0),
