@@ -64,6 +64,11 @@ _CONTRACTED = frozenset(
 )
 
 
+_FULL_STOP = re.compile(r'[.!?](?=\s|$)')
+# A line that goes on with a small letter or a number, behind one that has not come to its end.
+_WRAPPED = re.compile(r'(?<=[^\s.:;!?])[^\S\n]*\n[^\S\n]*(?=[a-z0-9])')
+
+
 # Pronouns behind which `'s` is `is`.
 _SUBJECTS = frozenset(('it', 'he', 'she', 'there', 'that', 'who', 'which'))
 
@@ -82,8 +87,12 @@ def _number(text: str) -> Fraction | None:
 
 
 def tokenize(text: str) -> tuple[Token, ...]:
-    """Cut a prompt into tokens; hyphens inside compounds vanish, line breaks end a sentence."""
+    """Cut a prompt into tokens; hyphens inside compounds vanish, line breaks end a sentence.
+
+    But for breaks inside a sentence that was wrapped.
+    """
     raw: list[Token] = []
+    wrapped = _wraps(text)
     last_end = -1
     for match in _TOKEN.finditer(text):
         kind = match.lastgroup
@@ -91,7 +100,7 @@ def tokenize(text: str) -> tuple[Token, ...]:
         start, end = match.span()
         glued = start == last_end
         if kind == 'space':
-            if '\n' in piece and raw:
+            if '\n' in piece and raw and start not in wrapped:
                 raw.append(Token(kind=TokenKind.MARK, norm='\n', start=start, end=end))
             continue
         last_end = end
@@ -122,6 +131,16 @@ def tokenize(text: str) -> tuple[Token, ...]:
             token_kind = TokenKind.WORD if mark == 'x' else TokenKind.MARK
             raw.append(Token(kind=token_kind, norm=mark, start=start, end=end, glued=glued))
     return _join_signs(_drop_hyphens(_list_marks(_abbreviations(_short_forms(raw)))))
+
+
+def _wraps(text: str) -> frozenset[int]:
+    """Return where breaks begin that only wrap a line: in prose, in the middle of a sentence.
+
+    Notes without a full stop have one thing in each line.
+    """
+    if _FULL_STOP.search(text) is None:
+        return frozenset()
+    return frozenset(match.start() for match in _WRAPPED.finditer(text))
 
 
 def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:

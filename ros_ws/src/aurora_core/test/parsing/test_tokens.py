@@ -72,3 +72,18 @@ def test_single_capital_is_noted() -> None:
         False,
         False,
     ]
+
+
+@pytest.mark.parametrize(
+    ('text', 'breaks'),
+    [
+        ('A drone hovers over City Hall\nat 50 m\r\nfor 10 seconds.', 0),
+        ('A drone hovers. It tracks a van\n45 m away.', 0),
+        ('A drone hovers.\nit tracks a van.', 1),
+        ('Steps:\n- a drone hovers\n- it lands.', 2),
+        ('a drone hovers\nit lands', 1),
+        ('A drone hovers.\n\nA van stops.', 1),
+    ],
+)
+def test_a_line_that_is_wrapped_goes_on(text: str, breaks: int) -> None:
+    assert sum(token.norm == '\n' for token in tokenize(text)) == breaks
