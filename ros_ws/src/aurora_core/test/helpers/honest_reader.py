@@ -84,7 +84,7 @@ def honest_reading(spec: ScenarioSpec) -> dict[str, Any]:
                     {
                         'kind': b.kind.value,
                         'target': b.target,
-                        **numbers(b, 'speed_mps', 'closing_from_m'),
+                        **numbers(b, 'speed_mps', 'closing_from_m', 'duration_s'),
                         'quote': quote(b.span),
                     }
                     for b in a.behaviors
