@@ -102,7 +102,7 @@ def first_answer(function: Callable[..., Any]) -> Callable[..., Any]:
 def said(call: Call, *arguments: str) -> SimpleNamespace:
     """What is said about a bag: code and heading are held to belong together, in text and JSON."""
     with judged_once(), pytest.MonkeyPatch.context() as patch:
-        patch.setattr(verify, 'verify_found', first_answer(verify.verify_found))
+        patch.setattr(verify, 'verify_found', first_answer(verify_run.verify_found))
         plain = call('verify', *arguments)
         document = json.loads(call('verify', *arguments, '--json').out)
     first = plain.out.splitlines()[0]

@@ -22,6 +22,8 @@ Point2 = tuple[float, float]
 _ROUNDING_M = 1e-6
 # Places that are looked at in one go: most often one of the nearest is free.
 _FEW, _MANY = 40, 400
+# Spots of which is kept whether they are free, 0.2 kB each.
+_KEPT = 50_000
 
 
 def compiled_area(map_model: MapModel) -> Compiled:
@@ -107,6 +109,8 @@ class SpotFinder:
         spots = [(x, y) for x, y in points.tolist()]
         new = [spot for spot in spots if spot not in self._known]
         if new:
+            if len(self._known) > _KEPT:
+                self._known = {spot: self._known[spot] for spot in spots if spot in self._known}
             self._known.update(zip(new, self._near_built(np.array(new)).tolist(), strict=True))
         return np.array([self._known[spot] for spot in spots])
 
