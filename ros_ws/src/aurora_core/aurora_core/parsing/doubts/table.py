@@ -72,6 +72,7 @@ from aurora_core.parsing.doubts.times import (
     let_pass,
     started_again,
     times_of_others,
+    times_of_phases,
     untied_effects,
 )
 from aurora_core.spec.parameter import Span
@@ -125,6 +126,7 @@ _CHECKS: tuple[_Check, ...] = (
     at_one_moment,
     bounds_meanwhile,
     times_of_others,
+    times_of_phases,
     stops_at_places,
     deeds_at_places,
     in_their_order,

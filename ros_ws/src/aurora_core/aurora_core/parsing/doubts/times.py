@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -39,6 +40,8 @@ _STANDS = frozenset({'park', 'wait'})
 _NEARS = frozenset({'approach', 'reach'})
 _INTRANSITIVE = frozenset({'brake', 'cross', 'land', 'start', 'stop', 'turn_left', 'turn_right'})
 _AFTER_THAT = frozenset({'after that', 'afterwards', 'then', 'thereafter'})
+# `after 20 s of the run`, `after 20 s from the start`.
+_OF_THE_RUN = re.compile(r'\s*(?:from|in|into|of|since)\b')
 _LETS = frozenset({'lets', 'letting'})
 _LETS_PASS = frozenset({'cross', 'overtake'})
 # What stands for an act of its own behind `then`.
@@ -233,6 +236,24 @@ def begun_already(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             changes = bool(verbs) and verbs[-1] != 'be' and event.id in clause.ids
             if changes and clause.status is ClauseStatus.ENCODED:
                 yield clause.span
+
+
+def times_of_phases(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`hovers; after 20 s it switches to the bus`: 20 s of the hover, and not of the run."""
+    for event in spec.events:
+        at, action = event.trigger, event.action
+        if not isinstance(at, TimeTrigger) or at.at_s.span is None:
+            continue
+        if not isinstance(action, UavAction) or action.do != 'change_mission':
+            continue
+        first = next((m for m in spec.missions if m.uav == action.uav), None)
+        told = None if first is None else first.duration_s
+        if first is None or (told is not None and told.provenance is Provenance.EXPLICIT):
+            continue
+        before = spec.prompt[: at.at_s.span.start].lower().rstrip()
+        behind = spec.prompt[at.at_s.span.end :].lower()
+        if before.endswith('after') and not _OF_THE_RUN.match(behind):
+            yield at.at_s.span
 
 
 def distances_of_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
