@@ -22,7 +22,11 @@ FILE = re.compile(r'`(tune|held_out)/(\w+)\.jsonl`')
 def table() -> dict[tuple[Split, str], tuple[int, int]]:
     """Return prompts and requirements that the first table of the card gives each file."""
     found: dict[tuple[Split, str], tuple[int, int]] = {}
-    rows = [line.split('|')[1:4] for line in CARD.splitlines() if line.startswith('| `')]
+    rows = [
+        line.split('|')[1:4]
+        for line in CARD.splitlines()
+        if line.startswith(('| `tune/', '| `held_out/'))
+    ]
     for files, prompts, requirements in rows:
         named = FILE.findall(files)
         counts = zip(prompts.split(','), requirements.split(','), strict=True)

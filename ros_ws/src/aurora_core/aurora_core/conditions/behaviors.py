@@ -14,9 +14,9 @@ from aurora_core.judging.build import Inputs, Source, Target, Underivable, condi
 from aurora_core.judging.quantities import (
     at_place,
     free_speed,
-    headway,
     placement,
     relation_fraction,
+    time_headway,
 )
 from aurora_core.judging.quantities.crossing import Crossing
 from aurora_core.judging.quantities.distance import ClosedIn
@@ -396,7 +396,7 @@ def behavior_conditions(
             yield from placement.closing(inputs, agent, behavior, name)
             yield from _stated_speed(inputs, agent, behavior, name)
             if behavior.headway_s is not None:
-                yield headway.of_follower(inputs, agent, behavior, behavior.headway_s, name)
+                yield time_headway.of_follower(inputs, agent, behavior, behavior.headway_s, name)
 
 
 def behavior_id(agent: GroundAgent, index: int) -> str:

@@ -18,7 +18,6 @@ from aurora_core.judging.happening import earliest_s
 from aurora_core.judging.mission import missions_of_uav
 from aurora_core.judging.quantities import (
     altitude,
-    climb_rate,
     completion_delay,
     deceleration,
     delivered,
@@ -29,6 +28,7 @@ from aurora_core.judging.quantities import (
     return_distance,
     sent_after_capture,
     speed_before_event,
+    vertical_speed,
     visible_at_send,
     yielding,
 )
@@ -75,7 +75,7 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
         if isinstance(action, UavAction) and action.altitude_m is not None:
             yield altitude.climb(inputs, action, action.altitude_m, event, source)
             if action.vertical_mps is not None:
-                yield climb_rate.of_event(inputs, event, action, action.vertical_mps, source)
+                yield vertical_speed.of_event(inputs, event, action, action.vertical_mps, source)
             if event.trigger is not None and not climbs_last(event):
                 yield completion_delay.of_climb(inputs, event, action, action.altitude_m, source)
         if isinstance(action, UavAction) and action.do == 'return_home':

@@ -24,16 +24,17 @@ from aurora_core.judging.mission import mission_arguments
 from aurora_core.judging.quantities.altitude import Altitude
 from aurora_core.judging.quantities.battery import Battery
 from aurora_core.judging.quantities.clearance import Clearance
-from aurora_core.judging.quantities.climb_rate import VerticalSpeed
 from aurora_core.judging.quantities.deceleration import HardestBraking
 from aurora_core.judging.quantities.distance import Distance
 from aurora_core.judging.quantities.event_time import EventTime
-from aurora_core.judging.quantities.headway import TimeHeadway, TimeToCollision
 from aurora_core.judging.quantities.horizontal_distance import HorizontalDistance
 from aurora_core.judging.quantities.hover_drift import HoverDrift
 from aurora_core.judging.quantities.separation import Separation
 from aurora_core.judging.quantities.speed import Speed, SpeedAfterMoving
+from aurora_core.judging.quantities.time_headway import TimeHeadway
+from aurora_core.judging.quantities.time_to_collision import TimeToCollision
 from aurora_core.judging.quantities.tracked_fraction import TrackedFraction
+from aurora_core.judging.quantities.vertical_speed import VerticalSpeed
 from aurora_core.judging.quantities.visible_fraction import VisibleFraction
 from aurora_core.judging.quantities.visible_time import VisibleTime
 from aurora_core.judging.quantity import OfMission, OfSight, PerSample

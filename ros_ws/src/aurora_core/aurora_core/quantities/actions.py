@@ -204,7 +204,7 @@ def climbed_mps(asked: Parameter) -> float:
 def least_climb_mps(asked: Parameter, tolerance: Tolerance) -> float:
     """Return the least that a stated vertical speed leaves: how long a climb may take."""
     if asked.bound is Bound.AT_LEAST:
-        return asked.value
+        return max(_LEAST_CLIMB_MPS, asked.value)
     slack = tolerance.of(asked.value, approximate=asked.approximate)
     return max(_LEAST_CLIMB_MPS, min(climbed_mps(asked), asked.value - slack))
 

@@ -28,9 +28,10 @@ _WORDS = {
     'ClauseStatus': 'encoded no_requirement not_encoded not_judged',
 }
 _QUANTITIES = (
-    'distance horizontal_distance separation altitude speed tracked_fraction visible_time '
-    'visible_fraction delivery_latency delivered delivery_ratio event_time hover_drift '
-    'waypoints_visited mission_completed landed clearance battery'
+    'distance horizontal_distance separation altitude speed vertical_speed deceleration '
+    'time_headway time_to_collision tracked_fraction visible_time visible_fraction '
+    'delivery_latency delivered delivery_ratio event_time hover_drift waypoints_visited '
+    'mission_completed landed clearance battery'
 )
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""How close in time one drives behind another one: headway, and time to collision."""
+"""How close in time one drives behind another one: its headway."""
 
 from __future__ import annotations
 
@@ -73,18 +73,6 @@ class TimeHeadway(StatedSeries):
     def values(self, context: Context, condition: Condition) -> FloatArray:
         """Return the headway at every tick."""
         return headway.pair_series(context.view, 'headway', *condition.of)
-
-
-class TimeToCollision(StatedSeries):
-    """Bumper gap to the one ahead in the lane, divided by the closing speed, s."""
-
-    name = QuantityName.TIME_TO_COLLISION
-    kind: Literal['time_to_collision'] = 'time_to_collision'
-    window: Window = Window.RUN
-
-    def values(self, context: Context, condition: Condition) -> FloatArray:
-        """Return the time to collision at every tick."""
-        return headway.pair_series(context.view, 'ttc', *condition.of)
 
 
 def of_follower(
