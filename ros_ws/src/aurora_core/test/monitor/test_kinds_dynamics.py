@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 from kind_rows import Row, cut, gone, stated
@@ -115,9 +117,31 @@ def _closes(op: str, value: float, lead_mps: float = 8.0, gap_m: float = 50.0) -
     return stated(case, 'time_to_collision', ('car1', 'car2'), op, value)
 
 
+def _answers(on: str, threshold_s: float, tick: int) -> Case:
+    """The same pair: 20 m behind at 15 s it is to brake, and does so from the tick on."""
+    own = np.maximum(10.0 - 0.25 * np.maximum(TICK - tick + 1, 0), 0.0)
+    case = _behind(own, 8.0, 50.0)
+    limit = number(threshold_s, Unit.SECOND, explicit=True)
+    trigger = {'on': on, 'a': 'car1', 'b': 'car2', 'value_s': limit}
+    event = {'id': 'e1', 'trigger': trigger, 'action': {'do': 'brake', 'agent': 'car1'}}
+    case.spec = spec(**{**dict(case.spec), 'events': (event,)})
+    return case
+
+
 # Of two cars, half of each.
 LENGTH_M = 4.5
 HEADWAYS = (
+    *(
+        Row(
+            id='e1.within',
+            make=partial(_answers, on, limit_s, 300 + late),
+            margin=1.0 - 0.05 * late,
+            within=0.16,
+            what=on,
+        )
+        for on, limit_s in (('headway_below', 2.0), ('ttc_below', 10.0))
+        for late in (6, 30)
+    ),
     Row(id='car1.follow.headway', make=lambda: _keeps(15.0, 1.5), margin=1.0 - 0.8),
     Row(id='car1.follow.headway', make=lambda: _keeps(15.0, 0.8), margin=0.0 - 0.8),
     Row(

@@ -160,7 +160,8 @@ class ClimbDelay(OfEvent):
         if waited_s > condition.threshold or context.complete(condition):
             late_s = max(waited_s, condition.threshold + context.view.dt_s)
             story = f'{begin}; it never got to {number(self.altitude_m)} m'
-            return at_tick(due, late_s, story, topics, later=Later.RISES, provisional=True)
+            later = Later.RISES if waited_s > condition.threshold else Later.ANY
+            return at_tick(due, late_s, story, topics, later=later, provisional=True)
         return context.short(condition)
 
 
