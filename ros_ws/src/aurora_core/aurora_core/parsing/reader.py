@@ -39,7 +39,6 @@ from aurora_core.parsing.sequence import (
     after_sight,
     after_told,
     before_told,
-    ends_of_own,
     in_sequence,
     sight,
     soon,
@@ -97,7 +96,7 @@ class Reader:
 
     def read(self, pieces: Sequence[Piece]) -> None:
         """Read all clauses."""
-        self._read(ends_of_own(pieces))
+        self._read(pieces)
         self._story.drop_held(-1)
 
     def _read(self, pieces: Sequence[Piece]) -> None:

@@ -12,7 +12,7 @@ from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.brackets import take_out
 from aurora_core.parsing.clause_cuts import cut_at_markers, cut_behind_comparison
-from aurora_core.parsing.clause_openings import end_causes, plain_prepositions
+from aurora_core.parsing.clause_openings import plain_prepositions
 from aurora_core.parsing.clause_order import (
     attach_adjuncts,
     causes_first,
@@ -54,7 +54,7 @@ def _sentence(atoms: tuple[Atom, ...], number: int) -> tuple[Piece, ...]:
 def clauses(atoms: Sequence[Atom], number: int) -> list[Piece]:
     """Cut a sentence, or a stretch of one, into clauses."""
     plain, asides = take_out(list(atoms))
-    raw = cut_at_markers(end_causes(plain_prepositions(plain)))
+    raw = cut_at_markers(plain_prepositions(plain))
     parts = [part for whole in raw for part in cut_behind_comparison(whole)]
     pieces = [p for part in parts for p in ([part] if part.whole else cut_at_verbs(part))]
     pieces = attach_adjuncts(delays_to_causes(fill_gaps(pieces)))

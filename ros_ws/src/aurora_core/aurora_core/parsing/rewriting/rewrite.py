@@ -26,7 +26,6 @@ from aurora_core.parsing.rewriting.moments import dated
 from aurora_core.parsing.rewriting.nominal import predicates
 from aurora_core.parsing.rewriting.nominal_causes import verbal
 from aurora_core.parsing.rewriting.not_before import not_before
-from aurora_core.parsing.rewriting.pairs import pairs
 from aurora_core.parsing.rewriting.placing_words import placing_words, told_of_us
 from aurora_core.parsing.rewriting.radio import radio
 from aurora_core.parsing.rewriting.roles import cast
@@ -83,7 +82,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
 
 def _cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with words for actors and messages as such."""
-    told = told_once(members(told_of_us(pairs(atoms, prompt))))
+    told = told_once(members(told_of_us(atoms)))
     return messages_told(flights(cast(told, prompt)), prompt)
 
 
