@@ -17,12 +17,11 @@ from aurora_core.parsing.events import complete_event
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import TIME
-from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.pronouns import anything, mobile
 from aurora_core.parsing.reactions import REACTIONS, reaction
 from aurora_core.parsing.scene import EventDraft, Scene
-from aurora_core.parsing.told_pieces import is_phase, without_link
+from aurora_core.parsing.told_pieces import PHASES, is_phase, without_link
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     AgentAction,

@@ -22,6 +22,7 @@ from aurora_core.parsing.rewriting.enumerations import told_once
 from aurora_core.parsing.rewriting.flight_nouns import flights
 from aurora_core.parsing.rewriting.inversions import straighten
 from aurora_core.parsing.rewriting.members import members
+from aurora_core.parsing.rewriting.message_causes import messages_told
 from aurora_core.parsing.rewriting.moments import dated
 from aurora_core.parsing.rewriting.nominal import predicates
 from aurora_core.parsing.rewriting.nominal_causes import verbal
@@ -31,9 +32,7 @@ from aurora_core.parsing.rewriting.radio import radio
 from aurora_core.parsing.rewriting.roles import cast
 from aurora_core.parsing.rewriting.shared_out import shared_out, shares
 from aurora_core.parsing.rewriting.statements import value_statements
-from aurora_core.parsing.rewriting.telling import messages_told
-from aurora_core.parsing.rewriting.then_words import in_front
-from aurora_core.parsing.rewriting.ways import ways
+from aurora_core.parsing.rewriting.then_words import in_front, ways
 from aurora_core.parsing.rewriting.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
