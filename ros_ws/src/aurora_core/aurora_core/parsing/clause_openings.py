@@ -82,18 +82,3 @@ def _until_marker(atoms: Sequence[Atom], start: int) -> list[Atom]:
             break
         ahead.append(atom)
     return ahead
-
-
-def end_causes(atoms: list[Atom]) -> list[Atom]:
-    """`when it exceeds 15 m/s a truck ahead of it brakes`: a comma where the effect begins."""
-    ended = list(atoms)
-    i = 0
-    while i < len(ended):
-        if ended[i].kind is AtomKind.SUBORDINATOR and ended[i].key in ('when', 'after', 'until'):
-            run = []
-            for atom in ended[i + 1 :]:
-                if atom.kind in MARKERS and atom.kind is not AtomKind.RELATIVE:
-                    break
-                run.append(atom)
-        i += 1
-    return ended

@@ -14,11 +14,11 @@ from aurora_core.parsing.events import complete_event, same_cause
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.phases import FLOWN
 from aurora_core.parsing.pieces import Link
 from aurora_core.parsing.scene import Entity, EventDraft
 from aurora_core.parsing.sequence import answered_within, later
 from aurora_core.parsing.story import Story
+from aurora_core.parsing.told_pieces import FLOWN
 from aurora_core.spec.scenario import (
     AgentAction,
     EventAction,

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from aurora_core.parsing.atoms import AtomKind
-from aurora_core.parsing.cause_parts import again, delay_of
 from aurora_core.parsing.constructions.messages import TELLING
 from aurora_core.parsing.constructions.triggers import cause
 from aurora_core.parsing.constructions.world import world_words
@@ -16,13 +15,11 @@ from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause
 from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.named_later import named_later
-from aurora_core.parsing.phases import FLOWN, PHASES
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.reactions import REACTIONS
 from aurora_core.parsing.scene import EventDraft
 from aurora_core.parsing.story import HeldCause, Story
-from aurora_core.parsing.told_pieces import HAPPENS
+from aurora_core.parsing.told_pieces import FLOWN, HAPPENS, PHASES, again, delay_of, named_later
 from aurora_core.spec.scenario import EventDoneTrigger
 from aurora_core.spec.vocabulary import ClauseStatus
 

@@ -8,12 +8,10 @@ from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
-from aurora_core.parsing.constructions.absence import none_such
-from aurora_core.parsing.constructions.ascent import ascent, landing
 from aurora_core.parsing.constructions.demands import demands, seen_for
-from aurora_core.parsing.constructions.flight_details import flight_details
+from aurora_core.parsing.constructions.flight_details import ascent, flight_details, landing
 from aurora_core.parsing.constructions.flyers import asks_for_flight
-from aurora_core.parsing.constructions.identity import is_of_type
+from aurora_core.parsing.constructions.identity import is_of_type, none_such
 from aurora_core.parsing.constructions.placing import placing
 from aurora_core.parsing.constructions.states import predicate_adjectives
 from aurora_core.parsing.constructions.triggers import (

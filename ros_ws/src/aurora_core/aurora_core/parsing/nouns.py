@@ -11,9 +11,7 @@ from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.landmarks import landmark_words
 from aurora_core.parsing.lexicon import Lexicon, Tag
 from aurora_core.parsing.measures import COUNT, MeasureReader
-from aurora_core.parsing.noun_heads import HeadReader
-from aurora_core.parsing.noun_prefixes import prefix
-from aurora_core.parsing.noun_words import NounWords
+from aurora_core.parsing.noun_words import HeadReader, NounWords, prefix
 from aurora_core.parsing.stand_ins import StandInReader
 from aurora_core.parsing.tokens import Token, TokenKind
 

@@ -5,7 +5,7 @@
 It is a grammar and a lexicon: deterministic, without a network, a few milliseconds a prompt. The
 stages, one module each: `text` (is it a prompt at all), `tokens`, `tagging` (atoms, with
 `measures`, `nouns`, `spelling`, `disambiguation`), `rewriting/` (wordings put into plain order),
-`segments` (clauses as `pieces`, with `clause_openings`, `clause_cuts`, `predicates`,
+`segments` (clauses as `pieces`, with `clause_openings`, `predicates`,
 `clause_order`; `criteria/` finds conditions), `frames` (predicate, subject, `adjuncts`), `reader`
 (clauses in order) with `leading_causes`, `trailing_causes` and `effects` (cause and effect,
 remembered in the `story`), `main_clause` and `constructions/` (what clauses mean, written into

@@ -24,12 +24,10 @@ from aurora_core.parsing.effects import (
     told_to,
     without_cause,
 )
-from aurora_core.parsing.joint_causes import joint_causes, second_cause
 from aurora_core.parsing.leading_causes import leading
 from aurora_core.parsing.main_clause import main_clause
 from aurora_core.parsing.mission_changes import changes_mission, starts_late
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.named_later import acts_later, named_later
 from aurora_core.parsing.pieces import Link, Piece, first_solid
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import ClauseDraft, Entity, Scene
@@ -39,7 +37,6 @@ from aurora_core.parsing.sequence import (
     after_sight,
     after_told,
     before_told,
-    ends_of_own,
     in_sequence,
     sight,
     soon,
@@ -47,11 +44,15 @@ from aurora_core.parsing.sequence import (
 )
 from aurora_core.parsing.story import Story
 from aurora_core.parsing.told_pieces import (
+    acts_later,
     got_message,
     is_arrival,
     is_earlier,
     is_phase,
+    joint_causes,
     leads_to,
+    named_later,
+    second_cause,
     was_doing,
 )
 from aurora_core.parsing.trailing_causes import effect_then_cause
@@ -97,7 +98,7 @@ class Reader:
 
     def read(self, pieces: Sequence[Piece]) -> None:
         """Read all clauses."""
-        self._read(ends_of_own(pieces))
+        self._read(pieces)
         self._story.drop_held(-1)
 
     def _read(self, pieces: Sequence[Piece]) -> None:

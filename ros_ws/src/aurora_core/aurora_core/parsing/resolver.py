@@ -9,13 +9,31 @@ from collections.abc import Sequence
 
 from aurora_core.outcomes.parse import Refusal, RefusalKind
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
-from aurora_core.parsing.in_line import SIDES, front_or_rear
 from aurora_core.parsing.landmarks import landmark_words
 from aurora_core.parsing.lexicon import Lexicon, shipped_lexicon
 from aurora_core.parsing.pronouns import Fits, PronounResolver, anything
 from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.vocabulary import AgentType, Role
+from aurora_core.spec.scenario import Placement
+from aurora_core.spec.vocabulary import AgentType, Relation, Role
+
+_FRONT = frozenset({'front', 'leading', 'lead', 'preceding'})
+_REAR = frozenset({'rear', 'trailing', 'back', 'following'})
+# Labels that tell which of two is meant by where it is.
+SIDES = _FRONT | _REAR
+
+
+def front_or_rear(noun: NounPhrase, known: Sequence[Entity]) -> Entity | None:
+    """Return which of two `the front car` is; the first of a pair drives ahead of the second."""
+    if len(known) != 2 or any(e.is_uav for e in known) or not noun.labels & SIDES:
+        return None
+    front, rear = known
+    if front.group is None:
+        return None
+    if not front.placements:
+        front.placements.append(Placement(relation=Relation.AHEAD, of=rear.id))
+    return front if noun.labels & _FRONT else rear
+
 
 _MEMBER = re.compile(r'\s+of\b')
 _VEHICLES = frozenset(set(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU})

@@ -17,11 +17,11 @@ from dataclasses import dataclass, replace
 from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import Attempt, attempt
-from aurora_core.parsing.joint_causes import is_joint_word
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.new_clauses import is_placed
 from aurora_core.parsing.reactions import REACTIONS
 from aurora_core.parsing.scene import ClauseDraft
+from aurora_core.parsing.told_pieces import is_joint_word
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import ClauseStatus
 

@@ -5,12 +5,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import replace
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import AtomKind, NounKind
+from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.constructions import actions
 from aurora_core.parsing.constructions.triggers import cause
 from aurora_core.parsing.criteria.sequels import Sequels
@@ -19,12 +17,11 @@ from aurora_core.parsing.events import complete_event
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import TIME
-from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.pronouns import anything, mobile
 from aurora_core.parsing.reactions import REACTIONS, reaction
 from aurora_core.parsing.scene import EventDraft, Scene
-from aurora_core.parsing.told_pieces import is_phase, without_link
+from aurora_core.parsing.told_pieces import PHASES, is_phase, without_link
 from aurora_core.spec.events import comes_to_an_end
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
@@ -378,22 +375,3 @@ def after_sight(scene: Scene, before: int, seen: VisibilityTrigger | None) -> No
         tells = isinstance(action, SendMessage) and action.sender == seen.observer
         if event.trigger is None and tells:
             event.trigger = seen
-
-
-def ends_of_own(pieces: Sequence[Piece]) -> list[Piece]:
-    """`flies a line, when finished it messages …`: no flight waits for its own end."""
-    marked = list(pieces)
-    for k in range(1, len(marked) - 1):
-        piece, behind = marked[k], marked[k + 1]
-        verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
-        ends = verb is not None and verb.key == 'finish' and piece.link in (Link.WHEN, Link.AFTER)
-        named = any(
-            a.noun is not None and a.is_actor and a.noun.kind is not NounKind.PRONOUN
-            for a in piece.atoms
-        )
-        before = next((a.key for a in marked[k - 1].atoms if a.kind is AtomKind.VERB), '')
-        if before not in PHASES | {'trace', 'visit', ''} or behind.then:
-            continue
-        if ends and not named and behind.link is Link.MAIN and behind.sentence == piece.sentence:
-            marked[k] = replace(piece, opens=True)
-    return marked

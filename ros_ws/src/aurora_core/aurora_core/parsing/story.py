@@ -7,8 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from aurora_core.parsing.atoms import NounKind
-from aurora_core.parsing.constructions.noun_places import noun_places
-from aurora_core.parsing.constructions.states import adjectives
+from aurora_core.parsing.constructions.states import adjectives, noun_places
 from aurora_core.parsing.constructions.triggers import Cause
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link, Piece

@@ -15,8 +15,7 @@ from aurora_core.parsing.lexicon import Lexicon, Sense, Tag, shipped_lexicon
 from aurora_core.parsing.measures import MeasureReader
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nouns import NounReader
-from aurora_core.parsing.shorthand import written_out
-from aurora_core.parsing.spelling import Speller
+from aurora_core.parsing.spelling import Speller, written_out
 from aurora_core.parsing.tokens import Token, TokenKind
 
 _STOPS = frozenset('.;!?\n:')

@@ -7,7 +7,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from aurora_core.parsing.atoms import NounKind
-from aurora_core.parsing.cause_parts import again, delay_of
 from aurora_core.parsing.constructions import actions, messages
 from aurora_core.parsing.constructions.demands import demands
 from aurora_core.parsing.constructions.distances import DistanceCause
@@ -21,6 +20,7 @@ from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.scene import ClauseDraft, EventDraft, UntilDraft
 from aurora_core.parsing.sequence import answered_within
 from aurora_core.parsing.story import Story
+from aurora_core.parsing.told_pieces import again, delay_of
 from aurora_core.spec.scenario import AgentAction, EventAction, SendMessage, UavAction
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
 

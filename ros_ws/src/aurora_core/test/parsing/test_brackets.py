@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from aurora_core.parsing.brackets import take_out
+from aurora_core.parsing.segments import take_out
 from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.tokens import tokenize
 

@@ -9,16 +9,17 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
 from aurora_core.parsing.constructions.flight_types import FlightValues, state_ranges
 from aurora_core.parsing.constructions.flight_values import take_flight_values
-from aurora_core.parsing.constructions.flown_patterns import WAYPOINT_PREPS, flown_pattern
 from aurora_core.parsing.constructions.flyers import flyers
+from aurora_core.parsing.constructions.pattern_values import WAYPOINT_PREPS, flown_pattern
 from aurora_core.parsing.constructions.transits import (
     arrive,
     goes_on_there,
     is_transit,
     told_again,
+    waits_aloft,
+    waits_for,
     watches_from,
 )
-from aurora_core.parsing.constructions.waiting import waits_aloft, waits_for
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link
 from aurora_core.parsing.pronouns import anything, ground

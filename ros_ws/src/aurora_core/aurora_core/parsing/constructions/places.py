@@ -9,7 +9,7 @@ import re
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import MUTUAL, Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
-from aurora_core.parsing.criteria.placed import Placed
+from aurora_core.parsing.criteria.criterion import Placed
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.pronouns import ground

@@ -1,19 +1,48 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What adjectives say: `a tracking drone`, `a parked van`, `an oncoming truck`."""
+"""What adjectives and places beside a noun say: `a parked van`, `the van behind the ego`."""
 
 from __future__ import annotations
 
 from aurora_core.parsing import values
-from aurora_core.parsing.adjuncts import AdjunctKind
-from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import AtomKind, NounPhrase
 from aurora_core.parsing.constructions.ground import is_behavior
-from aurora_core.parsing.constructions.places import add_placement
+from aurora_core.parsing.constructions.places import add_placement, placement_at
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.scenario import Behavior, Placement
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Pattern, Relation
+
+_KINDS = (AdjunctKind.PLACE, AdjunctKind.PHRASE)
+
+
+def noun_places(frame: Frame) -> None:
+    """Place ground agents by the free place words right behind their nouns."""
+    for adjunct in frame.adjuncts:
+        if adjunct.used or adjunct.kind not in _KINDS:
+            continue
+        entity = _owner(frame, adjunct)
+        if entity is None:
+            continue
+        placement = placement_at(frame, adjunct, entity)
+        if placement is not None:
+            adjunct.used = True
+            add_placement(entity, placement)
+
+
+def _owner(frame: Frame, adjunct: Adjunct) -> Entity | None:
+    """Return the one ground agent whose noun ends where the place begins."""
+    nouns: list[NounPhrase] = list(frame.nouns())
+    for noun in nouns:
+        between = frame.scene.prompt[noun.end : adjunct.start]
+        if noun.end <= adjunct.start and not between.strip():
+            known = frame.resolver.known(noun)
+            ground = [e for e in known if not e.is_uav]
+            return ground[0] if len(known) == len(ground) == 1 else None
+    return None
+
 
 _MODES = {
     'track': MissionMode.TRACK,

@@ -11,7 +11,7 @@ from aurora_core.parsing.constructions.actions import agent_action
 from aurora_core.parsing.constructions.distances import DistanceCause, distance_cause, reference
 from aurora_core.parsing.constructions.messages import TELLING, message
 from aurora_core.parsing.constructions.missions import mission
-from aurora_core.parsing.constructions.noun_places import noun_places
+from aurora_core.parsing.constructions.states import noun_places
 from aurora_core.parsing.criteria.causes import told_cause, who_flew, who_moves
 from aurora_core.parsing.criteria.thresholds import threshold
 from aurora_core.parsing.frames import Frame

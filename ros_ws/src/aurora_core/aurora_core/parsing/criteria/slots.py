@@ -10,9 +10,8 @@ from dataclasses import replace
 from functools import lru_cache
 
 from aurora_core.parsing.atoms import Atom, AtomKind
-from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
+from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op, take_places
 from aurora_core.parsing.criteria.moments import Moment, with_events
-from aurora_core.parsing.criteria.placed import take_places
 from aurora_core.parsing.criteria.told import Told, told
 from aurora_core.parsing.criteria.words import Words, criteria_words, whole
 from aurora_core.parsing.measures import Measure

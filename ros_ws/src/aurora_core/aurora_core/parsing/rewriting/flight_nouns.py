@@ -10,8 +10,8 @@ from dataclasses import replace
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.phases import FLOWN, PHASES
 from aurora_core.parsing.rewriting.nominal import act_nouns
+from aurora_core.parsing.told_pieces import FLOWN, PHASES
 
 _FLIGHTS = PHASES | {'navigate', 'orbit'}
 _NEXT = _FLIGHTS | {'land', 'ascend', 'descend'}

@@ -14,9 +14,9 @@ from aurora_core.parsing.atom_runs import skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.measures import COUNT, LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.phases import FLOWN
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.parsing.rewriting.nominal import act_nouns
+from aurora_core.parsing.told_pieces import FLOWN
 
 _STANDS = frozenset({'wait', 'be', 'hover', 'exist'})
 _MOVES = frozenset({'come', 'drive', 'approach', 'walk', 'follow', 'cross'})

@@ -15,11 +15,11 @@ from aurora_core.parsing.atom_runs import skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.parsing.rewriting.flight_nouns import flight_end
 from aurora_core.parsing.rewriting.in_place import interrupted, verbless
 from aurora_core.parsing.rewriting.message_causes import heard
+from aurora_core.parsing.told_pieces import PHASES
 from aurora_core.spec.parameter import Bound
 
 _OPENERS = frozenset({'on', 'upon', 'at', 'with', 'after', 'following', 'by'})

@@ -14,9 +14,9 @@ from dataclasses import replace
 from aurora_core.parsing.atom_runs import LOOSE, by_sentence, runs, skip
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.measures import TIME
-from aurora_core.parsing.phases import FLOWN
 from aurora_core.parsing.pieces import has_verb
 from aurora_core.parsing.reactions import REACTIONS
+from aurora_core.parsing.told_pieces import FLOWN
 
 _WAITS = ('before', 'until', 'unless')
 _CAUSES = ('when', 'after')

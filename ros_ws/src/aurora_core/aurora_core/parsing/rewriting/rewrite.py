@@ -22,19 +22,17 @@ from aurora_core.parsing.rewriting.enumerations import told_once
 from aurora_core.parsing.rewriting.flight_nouns import flights
 from aurora_core.parsing.rewriting.inversions import straighten
 from aurora_core.parsing.rewriting.members import members
+from aurora_core.parsing.rewriting.message_causes import messages_told
 from aurora_core.parsing.rewriting.moments import dated
 from aurora_core.parsing.rewriting.nominal import predicates
 from aurora_core.parsing.rewriting.nominal_causes import verbal
 from aurora_core.parsing.rewriting.not_before import not_before
-from aurora_core.parsing.rewriting.pairs import pairs
 from aurora_core.parsing.rewriting.placing_words import placing_words, told_of_us
 from aurora_core.parsing.rewriting.radio import radio
 from aurora_core.parsing.rewriting.roles import cast
 from aurora_core.parsing.rewriting.shared_out import shared_out, shares
 from aurora_core.parsing.rewriting.statements import value_statements
-from aurora_core.parsing.rewriting.telling import messages_told
-from aurora_core.parsing.rewriting.then_words import in_front
-from aurora_core.parsing.rewriting.ways import ways
+from aurora_core.parsing.rewriting.then_words import in_front, ways
 from aurora_core.parsing.rewriting.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
@@ -83,7 +81,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
 
 def _cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with words for actors and messages as such."""
-    told = told_once(members(told_of_us(pairs(atoms, prompt))))
+    told = told_once(members(told_of_us(atoms)))
     return messages_told(flights(cast(told, prompt)), prompt)
 
 
