@@ -23,7 +23,7 @@ from aurora_core.grounding.parked import parked_boxes, walks_into
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import Release, person_release
 from aurora_core.grounding.routes import route_finder
-from aurora_core.grounding.sidewalk_spots import Spot, aside_m, at_distance, nearest_spot, off_m
+from aurora_core.grounding.sidewalk_spots import Spot, at_distance, nearest_spot, off_m
 from aurora_core.grounding.sites import (
     ANY_CLASS,
     SeatedAgent,
@@ -138,8 +138,9 @@ class PersonPlacer:
                 spot = self._spot(spec, agent, site, run_s, number)
             if isinstance(spot, str):
                 return spot
-            left_m = aside_m(agent, spot, self._map.network)
-            walker = SeatedPerson(agent=agent, path=spot.path, arc_m=spot.arc_m, lateral_m=left_m)
+            walker = SeatedPerson(
+                agent=agent, path=spot.path, arc_m=spot.arc_m, lateral_m=spot.lateral_m
+            )
             way_m = _SHORT_WAY_M if _goes(spec, agent) else 0.0
             seats = (*site.seated, *site.others)
             parked = parked_boxes(spec, seats, self._map.network, self._types)

@@ -13,8 +13,6 @@ from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.walk_path import WalkPath, walk_along
 from aurora_core.spec.parameter import Bound, Parameter
-from aurora_core.spec.scenario import GroundAgent
-from aurora_core.spec.vocabulary import AgentType
 
 # Steps in which a spot at a stated distance is looked for (m).
 _STEP_M = 0.5
@@ -63,18 +61,6 @@ def at_distance(
     lane = network.lane(spot.path.lane_id)
     most_m = lane.arc_length_m - KERB_M
     return Spot(spot.path, min(most_m, spot.arc_m + NEXT_M * number))
-
-
-def aside_m(agent: GroundAgent, spot: Spot, network: RoadNetwork) -> float:
-    """Return how far left of the middle of its sidewalk somebody stands (m).
-
-    A roadside unit is out of the way of those who walk there, at the side away from the street;
-    at a stated distance it is just there.
-    """
-    stated = any(placement.distance_m is not None for placement in agent.placements)
-    if agent.type is not AgentType.RSU or stated or spot.lateral_m != 0.0:
-        return spot.lateral_m
-    return -max(0.0, 0.5 * network.lane(spot.path.lane_id).width_m - KERB_M)
 
 
 def nearest_spot(network: RoadNetwork, point: tuple[float, float], number: int) -> Spot | None:

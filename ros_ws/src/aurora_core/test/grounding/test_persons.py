@@ -190,17 +190,3 @@ def test_who_is_at_a_landmark_and_ahead_of_a_vehicle_is_both(grounded: Ground) -
     assert (person.x_m - ego.x_m) * ego.heading_x + (
         person.y_m - ego.y_m
     ) * ego.heading_y == pytest.approx(30.0, abs=1.0)
-
-
-def test_a_roadside_unit_is_out_of_the_way_of_who_walks_there(grounded: Ground) -> None:
-    """Both stand at the crosswalk: who crosses would walk right through it."""
-    found, the_map = grounded(
-        'A pedestrian waits at the crosswalk. At 20 s the pedestrian crosses. A roadside unit is '
-        'at the crosswalk.'
-    )
-    unit = next(a for a in _persons(found) if a.type_name == 'rsu')
-    walker = next(a for a in _persons(found) if a.type_name == 'pedestrian')
-    line = Polyline(walker.route_xy_m)
-    assert abs(line.project(unit.x_m, unit.y_m)[1]) > (unit.width_m + walker.width_m) / 2.0
-    width_m = the_map.network.lane(unit.lane_id).width_m
-    assert abs(unit.lateral_m) < width_m / 2.0, 'on its sidewalk all the same'
