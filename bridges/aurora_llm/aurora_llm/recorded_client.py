@@ -19,6 +19,8 @@ from aurora_core.ports.language_model import (
     ModelRequest,
 )
 
+_HINT = 'give the transcript.jsonl of a run that a language model read'
+
 
 class RecordedClient:
     """Answers requests as they were answered when the transcript was made.
@@ -36,16 +38,14 @@ class RecordedClient:
         self._path = path
         # The same request may have been made again (after a time-out): answered in order.
         self._calls: defaultdict[str, deque[ModelCall]] = defaultdict(deque)
-        try:
-            lines = read_text(path, TRANSCRIPT_BYTES).splitlines()
-            for line in filter(str.strip, lines):
+        for number, line in enumerate(_lines(path), start=1):
+            if not line.strip():
+                continue
+            try:
                 call = ModelCall.model_validate_json(line)
-                self._calls[call.request_sha256].append(call)
-        except (OSError, UnicodeDecodeError, ValidationError) as err:
-            raise ConfigError(
-                f'{path} cannot be replayed: {err}',
-                hint='give the transcript.jsonl of a run that a language model read',
-            ) from err
+            except ValidationError:
+                raise _no_transcript(path, f' (line {number})') from None
+            self._calls[call.request_sha256].append(call)
 
     @property
     def name(self) -> str:
@@ -62,6 +62,20 @@ class RecordedClient:
                 'or version of AURORA',
             )
         return replayed(calls.popleft())
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        return read_text(path, TRANSCRIPT_BYTES).splitlines()
+    except OSError as err:
+        raise ConfigError(f'{path} cannot be read: {err.strerror or err}', hint=_HINT) from err
+    except UnicodeDecodeError:
+        raise _no_transcript(path) from None
+
+
+def _no_transcript(path: Path, where: str = '') -> ConfigError:
+    """Return an error that quotes nothing: a request can name any file."""
+    return ConfigError(f'{path} is no transcript of recorded replies{where}', hint=_HINT)
 
 
 def replayed(call: ModelCall) -> ModelReply | ModelFailure:

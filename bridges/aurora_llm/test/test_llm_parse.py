@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from traceback import format_exception
 from typing import Any
 
 import pytest
@@ -209,6 +210,19 @@ def test_recording_that_is_none_is_told(tmp_path: Path) -> None:
     ):
         with pytest.raises(ConfigError):
             check_model_name(model)
+
+
+@pytest.mark.parametrize('first', ['', '\n'])
+def test_a_file_that_is_no_recording_is_not_quoted(tmp_path: Path, first: str) -> None:
+    other = tmp_path / 'passwd'
+    other.write_text(f'{first}root:x:0:0:secret\n')
+    with pytest.raises(ConfigError) as caught:
+        check_model_name(f'recorded:{other}')
+    line = 1 + len(first)
+    assert caught.value.message == f'{other} is no transcript of recorded replies (line {line})'
+    shown = ''.join(format_exception(caught.value))
+    assert 'secret' not in shown
+    assert 'pydantic' not in shown
 
 
 def test_names_of_the_file_addresses_and_orders() -> None:

@@ -5,18 +5,19 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterable, Mapping
 from importlib import import_module
-from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, Self
 
+from pydantic import InstanceOf
+
+from aurora.arguments import Faults, PathName, checked
 from aurora_cli.answers import Run, check_facts, run_request
 from aurora_cli.collector import relax_collector
+from aurora_cli.files import full_path
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import ENGINE
 from aurora_core.errors import ConfigError, error_class
-from aurora_core.execution.faults import Fault
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.parsing.text import check_prompt_text
 from aurora_core.pipeline.stages import RunControl, RunRequest, request_of
@@ -50,7 +51,8 @@ class Session:
         out: Folder of the run folders; None: `runs` in the current folder.
     """
 
-    def __init__(self, *, out: str | PathLike[str] | None = None) -> None:
+    @checked
+    def __init__(self, *, out: PathName | None = None) -> None:
         self._out = _RUNS if out is None else Path(out)
         self._collector = gc.get_threshold()
 
@@ -67,6 +69,7 @@ class Session:
     def __exit__(self, *_: object) -> None:
         gc.set_threshold(*self._collector)
 
+    @checked
     def parse(
         self, prompt: str, *, map: str = _MAP, seed: int = 1, model: str = 'offline'
     ) -> ParseOutcome:
@@ -86,6 +89,7 @@ class Session:
         """
         return read_prompt(installed(), _request(prompt, map_name=map, seed=seed, model=model))
 
+    @checked
     def check(
         self, prompt: str, *, map: str = _MAP, seed: int = 1, model: str = 'offline'
     ) -> CheckReport:
@@ -102,18 +106,19 @@ class Session:
             raise facts.error
         return build_check(facts)
 
+    @checked
     def run(
         self,
         prompt: str,
         *,
-        out: str | PathLike[str] | None = None,
+        out: PathName | None = None,
         map: str = _MAP,
         seed: int = 1,
         model: str = 'offline',
         engine: Literal['local', 'ros'] = 'local',
-        faults: Iterable[Fault | Mapping[str, Any]] = (),
+        faults: Faults = (),
         repair: int | None = None,
-        control: RunControl | None = None,
+        control: InstanceOf[RunControl] | None = None,
     ) -> Run:
         """Take a prompt through the whole chain. Other arguments: see `parse`.
 
@@ -146,19 +151,20 @@ class Session:
             repair=repair,
         )
         control = RunControl() if control is None else control
-        done = run_request(request, (self._out if out is None else Path(out)).absolute(), control)
+        done = run_request(request, full_path(self._out if out is None else Path(out)), control)
         if done.status is Status.CANCELLED and not control.cancelled():
             raise KeyboardInterrupt
         _raise_broken(done.report, done.folder)
         return done
 
+    @checked
     def verify(
         self,
-        path: str | PathLike[str],
+        path: PathName,
         *,
         iteration: int | None = None,
         as_recorded: bool = False,
-        trusted: str | PathLike[str] | None = None,
+        trusted: PathName | None = None,
     ) -> VerifyReport:
         """Recompute every margin from a bag alone, and hold it against its run folder.
 

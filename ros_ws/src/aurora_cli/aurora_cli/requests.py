@@ -11,6 +11,7 @@ from typing import cast
 from pydantic import ValidationError
 
 from aurora_cli.beside.chosen import HERE, Elsewhere
+from aurora_cli.files import full_path
 from aurora_cli.output import UsageProblem
 from aurora_core.errors import ConfigError, PromptError
 from aurora_core.execution.faults import Fault
@@ -94,11 +95,11 @@ def _absolute(model: str) -> str:
     """Name a recording by its full path: the graph was started in another folder."""
     if not model.startswith(RECORDED):
         return model
-    return f'{RECORDED}{Path(model.removeprefix(RECORDED)).absolute()}'
+    return f'{RECORDED}{full_path(Path(model.removeprefix(RECORDED)))}'
 
 
 def _absolute_folder(folder: Path | None) -> Path | None:
-    return folder.absolute() if folder is not None else None
+    return full_path(folder) if folder is not None else None
 
 
 def fault(text: str) -> Fault:

@@ -14,21 +14,25 @@ import hashlib
 import os
 import stat
 import sys
+from datetime import datetime
 from pathlib import Path
 
 from cryptography.exceptions import InvalidSignature, UnsupportedAlgorithm
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey, Ed25519PublicKey
+from cryptography.hazmat.primitives.asymmetric.types import PublicKeyTypes
 from cryptography.hazmat.primitives.serialization import (
     Encoding,
     NoEncryption,
     PrivateFormat,
     PublicFormat,
+    SSHPublicKeyTypes,
     load_pem_private_key,
     load_pem_public_key,
     load_ssh_private_key,
     load_ssh_public_key,
 )
 
+from aurora_cli.allowed_signers import key_lines
 from aurora_cli.output import UsageProblem
 from aurora_core.errors import AuroraError
 from aurora_core.files import read_bytes
@@ -37,6 +41,11 @@ from aurora_core.report.signed_run import Signer, Verifier
 # A file of trusted keys may hold some hundred lines.
 _KEY_BYTES = 1 << 16
 _OTHERS = stat.S_IRWXG | stat.S_IRWXO
+# The field of edwards25519, and y of its eight points of small order: whatever x, and also where y
+# is written unreduced. Chalkias, Garillot, Nikolaenko: Taming the many EdDSAs (SSR 2020), table 1.
+_P = 2**255 - 19
+_Y8 = 0x05FC536D880238B13933C6D305ACDFD5F098EFF289F4C345B027B2C28F95E826
+_SMALL_ORDER_Y = frozenset((0, 1, _P - 1, _Y8, _P - _Y8))
 _OPENSSH = b'-----BEGIN OPENSSH PRIVATE KEY-----'
 
 
@@ -83,7 +92,8 @@ def load_trusted(path: Path) -> Verifier:
         path: A PEM public key, or lines as in `<key>.pub` and `allowed_signers` of OpenSSH.
 
     Raises:
-        UsageProblem: There is no such file, or it holds none, or something else, too.
+        UsageProblem: There is no such file, it holds something else, too, or no key that may
+            vouch for a run now.
     """
     keys = _publics(path, _read(path))
 
@@ -129,23 +139,36 @@ def _private(path: Path, data: bytes) -> Ed25519PrivateKey:
 def _publics(path: Path, data: bytes) -> list[Ed25519PublicKey]:
     if b'PRIVATE KEY' in data:
         raise UsageProblem(f'{path} is a private key: name the public one, {_public(path)}')
-    found: list[Ed25519PublicKey] = []
     try:
         if data.lstrip().startswith(b'-----BEGIN'):
-            lines, keys = [], [load_pem_public_key(data)]
-        else:
-            lines = [line for line in data.splitlines() if line.strip() and line[:1] != b'#']
-            # Before the type of a key an allowed_signers file has names and options.
-            keys = [load_ssh_public_key(line[line.find(b'ssh-ed25519 ') :]) for line in lines]
+            return [_trustworthy(load_pem_public_key(data))]
+        lines = list(key_lines(data.decode(), datetime.now().astimezone()))
+        keys = [
+            _trustworthy(load_ssh_public_key(line.key.encode()), f'line {line.number} holds ')
+            for line in lines
+            if line.unfit is None
+        ]
     except (ValueError, UnsupportedAlgorithm) as err:
         raise UsageProblem(f'{path} is no file of Ed25519 public keys: {err}') from err
-    for key in keys:
-        if not isinstance(key, Ed25519PublicKey):
-            raise UsageProblem(f'{path} holds a key that is no Ed25519 key')
-        found.append(key)
-    if not found:
-        raise UsageProblem(f'{path} holds no key')
-    return found
+    if not keys:
+        why = '; '.join(f'line {line.number} {line.unfit}' for line in lines)
+        raise UsageProblem(f'{path} holds no key that vouches for a run: {why or "it is empty"}')
+    return keys
+
+
+def _trustworthy(key: PublicKeyTypes | SSHPublicKeyTypes, where: str = '') -> Ed25519PublicKey:
+    """Return a key that only its owner signs with.
+
+    Raises:
+        ValueError: It is of another kind, or a point of small order.
+    """
+    if not isinstance(key, Ed25519PublicKey):
+        raise ValueError(f'{where}a key that is no Ed25519 key')
+    # The top bit is the sign of x; y need not be reduced (RFC 8032, 5.1.2).
+    y = int.from_bytes(key.public_bytes_raw(), 'little') & ((1 << 255) - 1)
+    if y % _P in _SMALL_ORDER_Y:
+        raise ValueError(f'{where}a point of small order, under which anybody can sign')
+    return key
 
 
 def _public(path: Path) -> Path:

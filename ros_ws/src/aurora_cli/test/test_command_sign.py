@@ -276,9 +276,76 @@ def test_keys_of_other_makers_are_read_and_wrong_ones_are_named(
         (written('mine.copy', Path(keys.mine).read_bytes()), 'is a private key'),
         (written('empty', b''), 'holds no key'),
         (written('words', b'hello there\n'), 'no file of Ed25519 public keys'),
+        (written('rsa', b'me ssh-rsa AAAAB3NzaC1yc2E=\n'), 'no file of Ed25519 public keys'),
     ):
         answer = call('verify', str(run), '--trusted', name)
         assert (answer.code, said in answer.err) == (64, True), (name, answer.err)
+
+
+@pytest.mark.parametrize(
+    ('beside', 'said'),
+    [
+        ('me@here valid-before="20200101" ', 'line 2 was valid before 20200101'),
+        ('me@here valid-after="29990101Z" ', 'line 2 is valid after 29990101Z only'),
+        ('me@here namespaces="git,file" ', 'line 2 is for the namespaces git,file'),
+        ('me@here cert-authority ', 'line 2 has the option cert-authority'),
+        ('me@here VALID-BEFORE="soon" ', 'line 2 has the time soon'),
+        ('me@here valid-before="29990101",valid-before="29990101" ', 'stands there twice'),
+        ('me@here zone="a b" ', 'line 2 has the option zone'),
+        ('valid-before="20200101" ', 'line 2 begins with the option'),
+        ('cert-authority ', 'line 2 begins with the option'),
+        ('@revoked me@here ', 'line 2 has the marker @revoked'),
+        ('@revoked ', 'line 2 has the marker @revoked'),
+        ('me@here valid-before="20200101 ', 'line 2 holds no public key'),
+    ],
+)
+def test_what_stands_beside_a_trusted_key_is_respected(
+    beside: str, said: str, signed: Path, here: Path, keys: SimpleNamespace, call: Call
+) -> None:
+    (here / 'allowed').write_text(f'# who\n{beside}{Path(keys.trusted).read_text()}')
+    answer = call('verify', str(signed), '--trusted', 'allowed')
+    assert (answer.code, said in answer.err) == (64, True), answer.err
+
+
+def test_an_expired_line_leaves_the_other_keys_trusted(
+    signed: Path, here: Path, keys: SimpleNamespace, call: Call
+) -> None:
+    other, mine = Path(f'{keys.other}.pub').read_text(), Path(keys.trusted).read_text()
+    now = 'namespaces="file,aurora",valid-after="20200101",valid-before="299901010000Z"'
+    (here / 'allowed').write_text(f'me valid-before="20200101Z" {other} "me" {now} {mine}')
+    assert call('verify', str(signed), '--trusted', 'allowed').code == 0
+    (here / 'allowed').write_text(f'me valid-before="20200101Z" {mine} me {now} {other}')
+    assert call('verify', str(signed), '--trusted', 'allowed').code == 4
+
+
+def _of_order_8(p: int) -> int:
+    """Return y of a point of edwards25519 whose double has y = 0: d y^4 + 2 y^2 = 1."""
+    d = -121665 * pow(121666, -1, p)
+
+    def root(square: int) -> int | None:
+        found = pow(square, (p + 3) // 8, p)
+        both = (found, found * pow(2, (p - 1) // 4, p) % p)
+        return next((r for r in both if (r * r - square) % p == 0), None)
+
+    half = root((1 + d) % p)
+    assert half is not None
+    both = [root((r - 1) * pow(d, -1, p) % p) for r in (half, -half)]
+    return next(y for y in both if y is not None)
+
+
+def test_a_point_under_which_anybody_signs_is_no_trusted_key(
+    signed: Path, here: Path, call: Call
+) -> None:
+    """The neutral point with a signature of zeros would verify every folder."""
+    p = 2**255 - 19
+    y8 = _of_order_8(p)
+    for y in (0, 1, p - 1, y8, p - y8, p, p + 1):
+        for sign in (0, 1 << 255):
+            point = (y | sign).to_bytes(32, 'little')
+            blob = b'\0\0\0\x0bssh-ed25519\0\0\0 ' + point
+            (here / 'key').write_text(f'me ssh-ed25519 {base64.b64encode(blob).decode()}\n')
+            answer = call('verify', str(signed), '--trusted', 'key')
+            assert (answer.code, 'line 1 holds a point of small order' in answer.err) == (64, True)
 
 
 def test_a_new_key_is_for_its_user_alone_and_never_replaces_one(

@@ -18,6 +18,7 @@ from types import SimpleNamespace
 import pytest
 
 import aurora
+from aurora_cli.main import run_command_line
 from aurora_core.errors import BagError, ConfigError, ExecutionError, MapError, PromptError
 from aurora_core.report.run_report import RunReport
 
@@ -178,3 +179,66 @@ def test_the_pytest_of_the_page(tmp_path: Path, finished: SimpleNamespace) -> No
     options = ('-q', '-p', 'no:cacheprovider', '-c', os.devnull, str(file))
     shown = python('-m', 'pytest', *options, cwd=tmp_path, RECORDING=str(finished.folder))
     assert f'{len(finished.report["conditions"]) + 1} passed' in shown
+
+
+_NO_TEXT = 'Input should be a valid string'
+_NO_NAME = 'the name of a file or folder is not empty and has no NUL'
+
+
+@pytest.mark.parametrize(
+    ('function', 'arguments', 'said'),
+    [
+        ('run', {'prompt': None}, f'the argument prompt of run: {_NO_TEXT}'),
+        ('parse', {'prompt': b'a drone'}, f'the argument prompt of parse: {_NO_TEXT}'),
+        ('check', {'prompt': ['a drone']}, f'the argument prompt of check: {_NO_TEXT}'),
+        ('check', {'model': 5}, f'the argument model of check: {_NO_TEXT}'),
+        ('run', {'faults': None}, 'the argument faults of run: faults are a list'),
+        ('run', {'faults': 'late'}, 'the argument faults of run: faults are a list'),
+        ('run', {'out': 5}, f'the argument out of run: {_NO_TEXT}'),
+        ('run', {'out': b''}, f'the argument out of run: {_NO_TEXT}'),
+        ('run', {'out': ''}, f'the argument out of run: {_NO_NAME}'),
+        ('run', {'out': 'a\0b'}, f'the argument out of run: {_NO_NAME}'),
+        ('run', {'control': 'x'}, 'the argument control of run: Input should be an instance of'),
+        ('run', {'repair': True}, 'the argument repair of run: Input should be a valid integer'),
+        ('run', {'engine': 1}, 'the argument engine of run: '),
+        ('run', {'sed': 1}, 'the argument sed of run: '),
+        ('verify', {'path': ''}, f'the argument path of verify: {_NO_NAME}'),
+        ('verify', {'path': '.', 'as_recorded': 'no'}, 'the argument as_recorded of verify: '),
+        ('Session', {'out': ''}, f'the argument out of Session: {_NO_NAME}'),
+    ],
+)
+def test_an_argument_of_another_kind_is_named_and_nothing_is_written(
+    here: Path,
+    capfd: pytest.CaptureFixture[str],
+    function: str,
+    arguments: dict[str, object],
+    said: str,
+) -> None:
+    prompt = {'prompt': 'A drone hovers.'} if function in ('run', 'check', 'parse') else {}
+    with pytest.raises(ConfigError) as caught:
+        getattr(aurora, function)(**{**prompt, **arguments})
+    assert caught.value.message.startswith(said)
+    assert caught.value.hint
+    assert capfd.readouterr() == ('', '')
+    assert list(here.iterdir()) == []
+
+
+def test_an_argument_without_its_name_is_named_too() -> None:
+    with pytest.raises(ConfigError, match='the argument path of verify'):
+        aurora.verify(5)  # type: ignore[arg-type]
+
+
+def test_a_current_folder_that_was_deleted_is_said_plainly(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    gone = tmp_path / 'gone'
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    prompt = 'A drone hovers over the ego car for 5 seconds.'
+    with pytest.raises(aurora.AuroraError, match='the current folder was deleted'):
+        aurora.run(prompt)
+    assert run_command_line(['run', prompt]) == 4
+    told = capfd.readouterr().err
+    assert 'the current folder was deleted' in told
+    assert 'defect' not in told

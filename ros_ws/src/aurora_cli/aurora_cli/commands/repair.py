@@ -8,6 +8,7 @@ from pathlib import Path
 
 from aurora_cli.answers import Run, run_stages
 from aurora_cli.beside.chosen import Elsewhere, chosen
+from aurora_cli.files import full_path
 from aurora_cli.installed import installed
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.local_engine import LocalStages
@@ -76,7 +77,7 @@ def repair_command(
             RunProgress() as progress,
         ):
             control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
-            done = run_stages(request, stages, out.absolute(), control, beside)
+            done = run_stages(request, stages, full_path(out), control, beside)
     _tell(done, trace_sha256(content.trace, content.world))
     if as_json:
         print_json(done.report)

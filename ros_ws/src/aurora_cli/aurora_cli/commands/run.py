@@ -8,6 +8,7 @@ from pathlib import Path
 
 from aurora_cli.answers import Run, new_folder, run_request
 from aurora_cli.beside.chosen import chosen
+from aurora_cli.files import full_path
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.output import (
     BROKEN,
@@ -47,7 +48,7 @@ def run_command(
     """
     request = checked(options)
     raw = prompt_bytes(argument, prompt_file)
-    root = options.out.absolute()
+    root = full_path(options.out)
     with quiet_stdout():
         for run_id in close_unfinished(root):
             say(f'aurora: closed the unfinished run {run_id} as error')

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from aurora_cli.answers import Run, run_request
 from aurora_cli.beside.chosen import chosen
+from aurora_cli.files import full_path
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
 from aurora_cli.progress import RunProgress
@@ -83,7 +84,7 @@ def worst_exit_code(statuses: Sequence[Status], *, all_run: bool) -> int:
 
 def _run_all(request: RunRequest, count: int, options: RunOptions, *, quiet: bool) -> list[Run]:
     done: list[Run] = []
-    root = options.out.absolute()
+    root = full_path(options.out)
     with quiet_stdout(), Interrupts() as interrupts, chosen(options.elsewhere) as beside:
         for run_id in close_unfinished(root):
             say(f'aurora: closed the unfinished run {run_id} as error')

@@ -76,6 +76,8 @@ MARKERS = (
 
 # A sentence beyond that is nobody's; looking for patterns in it would take minutes.
 MOST_ATOMS = 300
+# Nor is a cause beyond that: `when` after `when` would have the rest read from each of them on.
+MOST_CAUSE_ATOMS = 100
 
 TRANSPARENT = (AtomKind.FILL, AtomKind.AUXILIARY, AtomKind.NEGATION, AtomKind.FRAME)
 

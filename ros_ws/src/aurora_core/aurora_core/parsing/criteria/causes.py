@@ -21,6 +21,7 @@ from aurora_core.parsing.criteria.told import Told, told
 from aurora_core.parsing.criteria.words import cause_words
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import MOST_CAUSE_ATOMS
 from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.scenario import (
     ArrivalTrigger,
@@ -68,7 +69,8 @@ def is_flight(atoms: Sequence[Atom], link: str) -> bool:
 def cause_end(atoms: Sequence[Atom]) -> int:
     """Return how many of the atoms behind `when` are one cause, up to a pause; 0 if none are."""
     ends = [i for i, a in enumerate(atoms) if i and a.kind in _PAUSES and not _goes_on(atoms, i)]
-    for end in sorted([*ends, len(atoms)], reverse=True):
+    short = [end for end in (*ends, len(atoms)) if end <= MOST_CAUSE_ATOMS]
+    for end in sorted(short, reverse=True):
         line = told(atoms[:end])
         if any(_is_all(line, name) for name in _MEANINGS):
             return end

@@ -119,9 +119,10 @@ def idle(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
                 acts = atom.key not in _PRESENTS
             elif atom.kind is AtomKind.COMMA and sentence[k + 1 : k + 2]:
                 acts = acts and sentence[k + 1].kind in (AtomKind.CONJUNCTION, AtomKind.THEN)
-            if not acts or any(a.kind is AtomKind.VERB for a in stretch(sentence, k + 1)):
+            named = list(_named([atom], spec.prompt, bodies)) if acts else []
+            if not named or any(a.kind is AtomKind.VERB for a in stretch(sentence, k + 1)):
                 continue
-            for name, span in _named([atom], spec.prompt, bodies):
+            for name, span in named:
                 meant = {who for who, names in bodies.items() if name in names}
                 if not meant & about and clause_of(spec, atom) is not None:
                     yield span

@@ -195,9 +195,10 @@ def bounds_meanwhile(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span
     bounds = [c.value.span for c in spec.conditions if c.value.span is not None]
     for sentence in sentences(atoms):
         for k, atom in enumerate(sentence):
+            if atom.kind is not AtomKind.SUBORDINATOR or atom.key != 'while':
+                continue
             told = stretch(sentence, k + 1)
-            meanwhile = atom.kind is AtomKind.SUBORDINATOR and atom.key == 'while'
-            if not meanwhile or not k or not told:
+            if not k or not told:
                 continue
             sides = (over(sentence[0], sentence[k - 1]), over(told[0], told[-1]))
             if all(any(meet(bound, side) for bound in bounds) for side in sides):
