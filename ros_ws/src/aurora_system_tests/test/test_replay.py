@@ -36,7 +36,7 @@ from aurora_system_tests.graph import RunningGraph, running_graph
 
 pytestmark = pytest.mark.ros
 
-PROMPT = 'A scenario of 24 seconds. A drone hovers at 10 meters for 3 seconds.'
+PROMPT = 'A scenario of 90 seconds. A drone hovers at 20 meters for 5 seconds.'
 LIMIT_S = 120.0
 LIVE, BAG = Verdict.LIVE, Verdict.BAG
 
@@ -57,7 +57,7 @@ class Scene:
 @pytest.fixture(scope='module')
 def scene(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Scene]:
     folder = tmp_path_factory.mktemp('graph')
-    often = ['--ros-args', '-p', 'margins_period_s:=0.1']  # of a run that takes half a second
+    often = ['--ros-args', '-p', 'margins_period_s:=0.1']  # of a run that takes two seconds
     with running_graph(folder, more_arguments=lambda _domain: {'monitor': often}) as graph:
         # Each one in turn: what is taken late would be lost behind the next one.
         verdicts, statuses = (
