@@ -28,7 +28,7 @@ from aurora_core.quantities.actions import (
     rest_s,
     takes_time,
 )
-from aurora_core.quantities.headway import MEASURES, PairWatch
+from aurora_core.quantities.headway import pair_watches
 from aurora_core.spec.events import BRAKING, actor_of, reports_own_altitude
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
@@ -36,7 +36,6 @@ from aurora_core.spec.scenario import (
     AgentAction,
     Event,
     EventDoneTrigger,
-    HeadwayTrigger,
     ScenarioSpec,
     SendMessage,
     UavAction,
@@ -139,11 +138,7 @@ class EventRunner:
         self._over_from: dict[str, int] = {}
         self._touchdown_m = battery.touchdown_m
         self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
-        self._watches = {
-            e.id: PairWatch(roster, MEASURES[t.on], t.a, t.b)
-            for e in events
-            if isinstance(t := e.trigger, HeadwayTrigger)
-        }
+        self._watches = pair_watches(roster, events)
         self._progress.rests_s = {e.id: rest_s(spec.events, e, rules) for e in events}
         self._messages = 0
 

@@ -201,24 +201,19 @@ def _rules(
             high=1.0,
             high_is_excluded=not _is_to_lose(spec, link),
         )
-    if spec.world.wind_mps is not None:
-        yield _Rule(
-            path='world/wind_mps',
-            parameter=spec.world.wind_mps,
-            reason='speed_limit',
-            limit_name='wind_max_mps',
-            low=0.0,
-            high=limits.wind_max_mps,
-        )
-    if spec.world.gust_mps is not None:
-        yield _Rule(
-            path='world/gust_mps',
-            parameter=spec.world.gust_mps,
-            reason='speed_limit',
-            limit_name='gust_max_mps',
-            low=0.0,
-            high=limits.gust_max_mps,
-        )
+    for name, stated, most_mps in (
+        ('wind', spec.world.wind_mps, limits.wind_max_mps),
+        ('gust', spec.world.gust_mps, limits.gust_max_mps),
+    ):
+        if stated is not None:
+            yield _Rule(
+                path=f'world/{name}_mps',
+                parameter=stated,
+                reason='speed_limit',
+                limit_name=f'{name}_max_mps',
+                low=0.0,
+                high=most_mps,
+            )
     if spec.world.duration_s is not None:
         yield _Rule(
             path='world/duration_s',

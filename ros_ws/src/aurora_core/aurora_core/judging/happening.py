@@ -25,6 +25,14 @@ def never_happened(context: Context, condition: Condition, story: str) -> Missin
     return Missing(reason=Reason.PREMISE_NEVER, story=story)
 
 
+def triggered(context: Context, condition: Condition, event_id: str) -> int | Missing:
+    """Return the tick at which an event was triggered, or that it never was."""
+    tick = context.events.trigger_tick(event_id)
+    if tick is None:
+        return never_happened(context, condition, f'the trigger of {event_id} never happened')
+    return tick
+
+
 def trigger_story(context: Context, event_id: str, tick: int) -> str:
     """Return what happened when an event was triggered, as the beginning of a sentence."""
     event = context.events.event(event_id)

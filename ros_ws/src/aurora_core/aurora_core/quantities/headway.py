@@ -8,6 +8,7 @@ ISO 15622). Time to collision: the same gap divided by the speed with which it c
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Literal
 
 import numpy as np
@@ -16,6 +17,7 @@ import numpy.typing as npt
 from aurora_core.quantities import motion
 from aurora_core.quantities.routes import Along, along_route, route_of
 from aurora_core.quantities.view import RunView
+from aurora_core.spec.scenario import Event, HeadwayTrigger
 from aurora_core.trace.layout import GroundColumn
 from aurora_core.trace.roster import Roster
 
@@ -103,3 +105,12 @@ class PairWatch:
         here = (own[:, _PRESENT] > 0.5) & (lead[:, _PRESENT] > 0.5)
         across_m = np.abs(offset_m - own_offset_m)
         return float(_seconds(self._measure, gap_m, across_m, here, own, lead)[0])
+
+
+def pair_watches(roster: Roster, events: Iterable[Event]) -> dict[str, PairWatch]:
+    """Return who has to be watched for the triggers of events, by event."""
+    return {
+        event.id: PairWatch(roster, MEASURES[trigger.on], trigger.a, trigger.b)
+        for event in events
+        if isinstance(trigger := event.trigger, HeadwayTrigger)
+    }

@@ -28,6 +28,13 @@ def first_tick(mask: BoolArray, start: int = 0, stop: int | None = None) -> int 
     return start + index if len(part) and bool(part[index]) else None
 
 
+def onset_tick(mask: BoolArray, start: int, *, begins_there: bool) -> int | None:
+    """Return the first tick from `start` on in the mask, or where a stretch of it begins."""
+    if begins_there:
+        mask = mask & ~np.concatenate(([False], mask[:-1]))
+    return first_tick(mask, start)
+
+
 def last_tick(mask: BoolArray, start: int = 0, stop: int | None = None) -> int | None:
     """Return the last tick in [start, stop) at which the mask is true, None if there is none."""
     part = mask[start:stop][::-1]

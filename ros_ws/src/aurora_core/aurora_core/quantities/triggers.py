@@ -39,7 +39,7 @@ from aurora_core.quantities.lane_changes import (
 from aurora_core.quantities.ledger import LinkModel, messages
 from aurora_core.quantities.phases import FlightPhases
 from aurora_core.quantities.sight import sight_series
-from aurora_core.quantities.ticks import first_tick, whole_ticks
+from aurora_core.quantities.ticks import first_tick, onset_tick, whole_ticks
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.scenario import (
@@ -316,7 +316,7 @@ class EventTimes:
                 # To a lower altitude it goes down.
                 z_m = float(motion.altitude(self.view, uav)[start])
                 rate = -rate if action.altitude_m.value < z_m else rate
-            return _onset(rate >= CLIMBS_MPS, start, begins_there=begins_there)
+            return onset_tick(rate >= CLIMBS_MPS, start, begins_there=begins_there)
         flight = self.rules.flights.get(action.uav)
         tick = None if flight is None else flight.landing_tick
         return tick if tick is not None and tick >= start else None
@@ -342,10 +342,10 @@ class EventTimes:
             least = self.rules.onset_mps2
             if action.do == 'brake':
                 least = braking_mps2(action.deceleration_mps2, self.rules.brake_mps2, least)
-            return _onset(loss >= least, start, begins_there=begins_there)
+            return onset_tick(loss >= least, start, begins_there=begins_there)
         if action.do in ('start', 'accelerate'):
             gain = -motion.deceleration(self.view, body)
-            return _onset(gain >= self.rules.onset_mps2, start, begins_there=begins_there)
+            return onset_tick(gain >= self.rules.onset_mps2, start, begins_there=begins_there)
         if action.do == 'change_lane':
             return change_begins(self.view, body, start, action.side)
         on = self._on_carriageway(action.agent)
@@ -436,13 +436,6 @@ class EventTimes:
         sight = trigger_series(self.view, seen, self.rules)
         assert sight is not None  # an observer and a target are no places
         return sight
-
-
-def _onset(mask: BoolArray, start: int, *, begins_there: bool) -> int | None:
-    """Return the first tick from `start` on in the mask, or where a stretch of it begins."""
-    if begins_there:
-        mask = mask & ~np.concatenate(([False], mask[:-1]))
-    return first_tick(mask, start)
 
 
 def trigger_series(

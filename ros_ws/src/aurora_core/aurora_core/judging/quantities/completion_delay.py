@@ -19,12 +19,20 @@ from aurora_core.judging.build import (
     number,
     stated_by,
 )
-from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick, ground_topics
+from aurora_core.judging.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Missing,
+    at_tick,
+    ground_topics,
+)
 from aurora_core.judging.happening import (
     EVENT_TOPICS,
     agent_action,
     never_happened,
     trigger_story,
+    triggered,
 )
 from aurora_core.judging.mission import climb_mps, descent_mps
 from aurora_core.judging.quantities.lane_change import the_lane
@@ -178,10 +186,9 @@ class DoneDelay(OfEvent):
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time; what is not over in it is late."""
-        trigger = context.events.trigger_tick(self.event)
-        if trigger is None:
-            story = f'the trigger of {self.event} never happened'
-            return never_happened(context, condition, story)
+        trigger = triggered(context, condition, self.event)
+        if isinstance(trigger, Missing):
+            return trigger
         begin = trigger_story(context, self.event, trigger)
         done = self._done(context, condition, trigger)
         if done is not None:

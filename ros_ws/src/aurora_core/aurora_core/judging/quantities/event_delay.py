@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import FiniteFloat
 
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
-from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick
+from aurora_core.judging.evaluation import Context, Evaluation, Later, Missing, at_tick
 from aurora_core.judging.happening import (
     EVENT_TOPICS,
     agent_action,
@@ -18,6 +18,7 @@ from aurora_core.judging.happening import (
     moment,
     never_happened,
     trigger_story,
+    triggered,
     unready_story,
 )
 from aurora_core.judging.quantity import OfEvent
@@ -42,10 +43,9 @@ class EventDelay(OfEvent):
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time; what was not carried out in it is late."""
-        trigger = context.events.trigger_tick(self.event)
-        if trigger is None:
-            story = f'the trigger of {self.event} never happened'
-            return never_happened(context, condition, story)
+        trigger = triggered(context, condition, self.event)
+        if isinstance(trigger, Missing):
+            return trigger
         first, fresh = trigger, False
         if self.after_s > 0.0:
             first, fresh = trigger + whole_ticks(self.after_s, context.view.dt_s), True
@@ -77,10 +77,9 @@ class DelayOfFirst(OfEvent):
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time, negative for an action before the trigger."""
-        trigger = context.events.trigger_tick(self.event)
-        if trigger is None:
-            story = f'the trigger of {self.event} never happened'
-            return never_happened(context, condition, story)
+        trigger = triggered(context, condition, self.event)
+        if isinstance(trigger, Missing):
+            return trigger
         action = context.events.action_tick(self.event, 0, begins_there=False)
         begin = trigger_story(context, self.event, trigger)
         if action is None:
@@ -111,10 +110,9 @@ class DriverWaits(OfEvent):
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time."""
-        trigger = context.events.trigger_tick(self.event)
-        if trigger is None:
-            story = f'the trigger of {self.event} never happened'
-            return never_happened(context, condition, story)
+        trigger = triggered(context, condition, self.event)
+        if isinstance(trigger, Missing):
+            return trigger
         view, action = context.view, agent_action(context, condition, self.event)
         begin = max(0, trigger - whole_ticks(self.since_s, view.dt_s))
         end = trigger + whole_ticks(self.until_s, view.dt_s)

@@ -11,7 +11,7 @@ from pydantic import FiniteFloat
 
 from aurora_core.judging.build import Inputs, Source, Target, condition
 from aurora_core.judging.evaluation import Context, Evaluation, Measured, Missing, ground_topics
-from aurora_core.judging.happening import agent_action, earliest_s, never_happened
+from aurora_core.judging.happening import agent_action, earliest_s, triggered
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.verdict import Reason
@@ -38,10 +38,9 @@ class SpeedBeforeEvent(OfEvent):
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return the speed at each tick before it may set off."""
         action = agent_action(context, condition, self.event)
-        trigger = context.events.trigger_tick(self.event)
-        if trigger is None:
-            story = f'the trigger of {self.event} never happened'
-            return never_happened(context, condition, story)
+        trigger = triggered(context, condition, self.event)
+        if isinstance(trigger, Missing):
+            return trigger
         first = self._rests_from(context, action)
         if first is None or first > trigger:
             story = f'{action.agent} had not come to rest before {self.event} was triggered'
