@@ -64,6 +64,7 @@ _QUANTITIES = {
         QuantityName.ATTEMPTS,
         QuantityName.OUTAGE,
         QuantityName.REPORT_GAP,
+        QuantityName.MESSAGE_TEXT,
     ),
     EdgeType.BEHAVIORAL: (
         QuantityName.SPEED,

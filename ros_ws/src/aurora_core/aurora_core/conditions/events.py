@@ -25,6 +25,7 @@ from aurora_core.judging.quantities import (
     event_delay,
     event_time,
     lane_change,
+    message_text,
     return_distance,
     sent_after_capture,
     speed_before_event,
@@ -93,6 +94,8 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             used.add(link.id)
             yield from _alert(inputs, event, action, source)
             yield from _message(inputs, event, link)
+            if action.text is not None:
+                yield message_text.implied(inputs, event, action.text)
     for link in inputs.spec.links:
         if link.id in used:
             continue

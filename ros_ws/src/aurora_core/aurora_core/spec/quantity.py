@@ -82,3 +82,4 @@ class QuantityName(StrEnum):
     CLEARANCE = 'clearance'
     REPORT_GAP = 'report_gap'
     UNDONE = 'undone'
+    MESSAGE_TEXT = 'message_text'

@@ -16,7 +16,7 @@ from trace_cases import Case, message, spec, tailgate_case
 
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
-from aurora_core.trace.records import LinkEventKind, LossReason
+from aurora_core.trace.records import LinkEventKind, LossReason, ScenarioEventKind
 
 
 def _link(case: Case, **stated: float) -> Case:
@@ -63,6 +63,19 @@ def _every(seconds: float) -> Case:
 
 def _lossy(lost: int) -> Case:
     return _link(tailgate_case(lost=lost), loss=0.001)
+
+
+def _words(said: str, *, alert: bool = True) -> Case:
+    """An alert that is asked to say "van close"."""
+    case = tailgate_case(alert=alert)
+    (event,) = case.spec.events
+    action = {**dict(event.action or ()), 'text': 'van close'}
+    case.spec = spec(**{**dict(case.spec), 'events': ({**dict(event), 'action': action},)})
+    case.run.events[:] = [
+        replace(e, detail=said) if e.kind is ScenarioEventKind.ACTION else e
+        for e in case.run.events
+    ]
+    return case
 
 
 # Its ascent ends at 7 s, its missions at 52.5 s.
@@ -144,6 +157,10 @@ ROWS = (
     Row(id='l1.loss', make=lambda: _lossy(0), margin=0.0),
     Row(id='l1.loss', make=lambda: _lossy(2), margin=(1 - 3) / 3),
     Row(id='l1.loss', make=lambda: _nothing_sent(_lossy(0)), reason=NEVER),
+    Row(id='e1.text', make=lambda: _words('van close'), margin=1.0),
+    Row(id='e1.text', make=lambda: _words('van'), margin=0.0, what='other-words'),
+    Row(id='e1.text', make=lambda: _words(''), margin=0.0, what='no-words'),
+    Row(id='e1.text', make=lambda: _words('', alert=False), reason=NEVER),
 )
 
 

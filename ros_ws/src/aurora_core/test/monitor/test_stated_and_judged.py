@@ -26,8 +26,6 @@ OPEN = {
     # What is said of these is `not_encoded`, see `conditions/unsaid.py`.
     ('UavMission', 'dwell_s'),
     ('Link', 'occlusion'),
-    # The words of a message are told with it; what is judged is the message itself.
-    ('SendMessage', 'text'),
 }
 
 

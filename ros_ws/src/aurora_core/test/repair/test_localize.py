@@ -13,7 +13,11 @@ from aurora_core.spec.quantity import QuantityName
 
 Failing = Callable[..., Verdict]
 # What no realisation changes, and what has directions of its own.
-_NOT_HELPED = {QuantityName.WORLD_SETTING, QuantityName.RUN_DURATION}
+_NOT_HELPED = {
+    QuantityName.MESSAGE_TEXT,
+    QuantityName.RUN_DURATION,
+    QuantityName.WORLD_SETTING,
+}
 _BY_OPERATOR = {QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE}
 
 
