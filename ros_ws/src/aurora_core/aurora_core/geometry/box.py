@@ -7,7 +7,26 @@ from __future__ import annotations
 import numpy as np
 
 from aurora_core.geometry.arrays import FloatArray, FloatOrArray
-from aurora_core.geometry.kernel import norm2_array
+from aurora_core.geometry.kernel import norm2, norm2_array
+
+
+def chord_pose(
+    front: tuple[float, float], back: tuple[float, float], length_m: float
+) -> tuple[float, float, float, float]:
+    """Return centre (m) and unit heading of a body that has both ends on a line.
+
+    In a bend it stands on the chord, beside the line; so SUMO does (`MSVehicle::computeAngle`).
+
+    Args:
+        front: x, y of its front, metres.
+        back: Where its back lies on the line.
+        length_m: Its length, metres.
+    """
+    dx, dy = front[0] - back[0], front[1] - back[1]
+    size = norm2(dx, dy)
+    hx, hy = dx / size, dy / size
+    half_m = 0.5 * length_m
+    return front[0] - half_m * hx, front[1] - half_m * hy, hx, hy
 
 
 def box_gap_series(

@@ -310,7 +310,7 @@ class AgentPlacer:
         factor = max(style.get('speed_factor', 1.0), urged_factor(record, speed_mps))
         factor = max(factor, self._beyond_limits(agent, path, arc_m, speed_mps))
         edges = path.edge_ids[path.edge_ids.index(first) :]
-        x, y, hx, hy = path.position_at(arc_m)
+        x, y, hx, hy = path.body_at(arc_m, record.length_m)
         if parked:
             x, y, _, _ = parked_pose((x, y, hx, hy), lane, record)
         route_xy_m = ((x, y), *line_from(path, arc_m)[1:])

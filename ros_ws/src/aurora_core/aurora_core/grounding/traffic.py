@@ -10,6 +10,7 @@ from itertools import count
 import numpy as np
 
 from aurora_core.errors import MapError
+from aurora_core.geometry.box import chord_pose
 from aurora_core.geometry.kernel import norm2
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES
@@ -114,7 +115,7 @@ class TrafficPlacer:
         for lane, position_m, least in self._places(centre, streets, generator):
             if staying >= wanted or len(actors) + len(found) >= self._limits.agents_max:
                 break
-            x, y, hx, hy = self._network.position_on_lane(lane.id, position_m)
+            x, y, hx, hy = self._pose(lane, arc_at(lane, position_m))
             gap_m = self._settings.background_gap_m
             if any(norm2(x - u, y - v) < gap_m for u, v in taken):
                 continue
@@ -168,6 +169,12 @@ class TrafficPlacer:
         length_km = street_length_m(lanes, centre, self._tolerances.traffic_radius_m) / 1000.0
         number = self._tolerances.traffic_per_km[density.value] * length_km
         return _SPARE * max(number, self._tolerances.traffic_least)
+
+    def _pose(self, lane: Lane, arc_m: float) -> tuple[float, float, float, float]:
+        """Return centre (m) and unit heading of a car with its ends on a lane."""
+        half_m = 0.5 * self._record.length_m
+        front, back = (lane.line.at(arc_m + end_m)[:2] for end_m in (half_m, -half_m))
+        return chord_pose(front, back, 2.0 * half_m)
 
     def _places(
         self, centre: Point2, streets: frozenset[str], generator: np.random.Generator

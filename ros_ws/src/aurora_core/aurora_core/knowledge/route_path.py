@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from aurora_core.errors import MapError
 from aurora_core.geometry.arrays import FloatArray
+from aurora_core.geometry.box import chord_pose
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.knowledge.lane_plan import LanePlan
 from aurora_core.knowledge.net_types import Connection, Edge, Lane, Point, Points
@@ -87,6 +88,24 @@ class RoutePath:
         """
         self._check(arc_m)
         return self.line.at(arc_m)
+
+    def body_at(self, arc_m: float, length_m: float) -> tuple[float, float, float, float]:
+        """Return centre (m) and unit heading of a body with its ends on the path.
+
+        Where the path does not reach as far as that it stands along the path.
+
+        Args:
+            arc_m: Arc length in the middle between its ends.
+            length_m: Of the body, metres.
+
+        Raises:
+            MapError: When the arc length is not on the path.
+        """
+        front_m, back_m = arc_m + 0.5 * length_m, arc_m - 0.5 * length_m
+        if back_m < 0.0 or front_m > self.length_m:
+            return self.position_at(arc_m)
+        front, back = self.line.at(front_m)[:2], self.line.at(back_m)[:2]
+        return chord_pose(front, back, length_m)
 
     def positions_at(self, arcs_m: FloatArray) -> FloatArray:
         """Return x, y (m) and the unit heading at arc lengths (K,), one row (K, 4) each.

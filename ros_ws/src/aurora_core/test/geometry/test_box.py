@@ -13,7 +13,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aurora_core.geometry.box import box_gap_series
+from aurora_core.geometry.box import box_gap_series, chord_pose
 
 
 class OrientedBox(NamedTuple):
@@ -158,3 +158,13 @@ def test_absent_rows_stay_absent() -> None:
     gap = box_gap_series(zero, zero, one, zero, 4.0, 2.0, x, zero, one, zero, 4.0, 2.0)
     assert np.isnan(gap[0])
     assert gap[1] == 6.0
+
+
+def test_in_a_bend_a_bus_stands_inside_of_its_lane() -> None:
+    """On an arc of 20 m its middle is nearer to the centre of the arc by the sagitta."""
+    radius_m, length_m = 20.0, 12.0
+    half = math.asin(0.5 * length_m / radius_m)
+    front, back = ((radius_m * math.cos(a), radius_m * math.sin(a)) for a in (half, -half))
+    x, y, hx, hy = chord_pose(front, back, length_m)
+    assert (x, y) == pytest.approx((radius_m * math.cos(half), 0.0), abs=1e-9)
+    assert (hx, hy) == pytest.approx((0.0, 1.0), abs=1e-9)
