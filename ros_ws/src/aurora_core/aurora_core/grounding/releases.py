@@ -13,7 +13,7 @@ from aurora_core.grounding.pace import encounters, moves, stated_times_s
 from aurora_core.grounding.watched import asked_to_see
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.quantities.actions import FROM_MOTION
-from aurora_core.spec.events import bodies_of_cause, sets_off
+from aurora_core.spec.events import bodies_of, bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, counts_from_capture, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
 from aurora_core.spec.parking import stands, stands_first_s
@@ -292,9 +292,16 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
                 if pair & set(members):
                     return _reporter_ready(spec, name)
     for mission in spec.missions:
-        if met & set(members):
+        # A UAV that waits for an event on the ground goes up when somebody has set off.
+        if met & set(members) and _goes_up(spec, mission.uav):
             return Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
     return Release()
+
+
+def _goes_up(spec: ScenarioSpec, uav: str) -> bool:
+    """Tell whether a UAV takes off without an event."""
+    first = next(m for m in spec.missions if m.uav == uav)
+    return begun_by(spec, first) is None
 
 
 def _ready_to_be_passed(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Release:
@@ -363,7 +370,7 @@ def _waits_there(spec: ScenarioSpec, mission: UavMission) -> bool:
     """
     event = begun_by(spec, mission)
     others = [m for m in spec.missions if m.target == mission.target and m.uav != mission.uav]
-    return event is not None and not others and mission.target not in bodies_of_cause(event)
+    return event is not None and not others and not _brings_about(spec, event, mission.target)
 
 
 def _watched_from(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
@@ -417,6 +424,12 @@ def _causes(spec: ScenarioSpec, event: Event) -> Iterator[Event]:
         yield cause
         seen.add(cause.id)
         cause = events.get(_cause_of(spec, cause) or '')
+
+
+def _brings_about(spec: ScenarioSpec, event: Event, body: str | None) -> bool:
+    """Tell whether an event waits for a body, or for something that it does first."""
+    first, *earlier = _causes(spec, event)
+    return body in bodies_of_cause(first) or any(body in bodies_of(e) for e in earlier)
 
 
 def _cause_of(spec: ScenarioSpec, event: Event) -> str | None:

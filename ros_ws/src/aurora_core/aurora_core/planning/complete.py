@@ -8,6 +8,8 @@ prompt states is never touched.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from aurora_core.grounding.apart import layer_m
 from aurora_core.knowledge.limits import Limits
 from aurora_core.parsing import values
@@ -57,7 +59,7 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    spec = meeting(passed(blowing(spec, limits)))
+    spec = meeting(passed(standing(blowing(spec, limits))))
     spec = waiting(hovering(reporting(telling(yielding(approaching(spec))))))
     timed = at_start_where_changed(hurried(spec, limits))
     return as_high(layered(as_high(bent(lasting(timed), limits)), limits))
@@ -79,6 +81,31 @@ def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         speed = speed.model_copy(update={'value': usual_mps})
     world = World.model_validate({**dict(world), 'wind_mps': speed})
     return ScenarioSpec.model_validate({**dict(spec), 'world': world})
+
+
+def standing(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification in which who stops at a place and waits does so there.
+
+    "The van stops at the intersection and waits for 5 s": that is one stop, of 5 s.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when nobody does.
+    """
+
+    def stays(agent: GroundAgent) -> GroundAgent:
+        behaviors = list(agent.behaviors)
+        for k, (stop, wait) in enumerate(pairwise(agent.behaviors)):
+            stops = stop.kind is BehaviorKind.STOP and stop.target is not None
+            waits = wait.kind is BehaviorKind.WAIT and wait.target in (None, stop.target)
+            if stops and waits and stop.duration_s is None and wait.duration_s is not None:
+                behaviors[k : k + 2] = [stop.model_copy(update={'duration_s': wait.duration_s})]
+                return agent.model_copy(update={'behaviors': tuple(behaviors)})
+        return agent
+
+    agents = tuple(map(stays, spec.agents))
+    if agents == spec.agents:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'agents': agents})
 
 
 def passed(spec: ScenarioSpec) -> ScenarioSpec:

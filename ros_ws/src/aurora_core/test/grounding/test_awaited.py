@@ -86,3 +86,20 @@ def test_who_is_to_get_far_from_a_place_is_near_it_until_the_uav_hovers(
     assert dist((van.x_m, van.y_m), market) < 100.0
     assert dist(van.route_xy_m[-1], market) > 100.0
     assert van.release is ReleaseOn.CAPTURED
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A truck drives at 40 km/h. When it passes City Hall, a drone starts tracking it at 35 m.',
+        'When the bus stops at the crosswalk, a drone starts tracking it at 30 m height.',
+        'When the cyclist reaches Meadow Park, a drone hovers over Meadow Park for 20 seconds.',
+    ],
+)
+def test_nobody_waits_for_a_uav_that_waits_for_him_on_the_ground(
+    prompt: str, read_prompt: Read, ground: Ground
+) -> None:
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    assert isinstance(found, GroundedScenario), found
+    (agent,) = found.agents
+    assert agent.release is ReleaseOn.START

@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from kind_rows import Row, cut, gone, grounded
+from kind_rows import Row, cut, gone, grounded, stated
 from trace_builder import TOLERANCES, building, flight, number, world
 from trace_cases import Case, convoy_case, hover_case, spec
 
@@ -70,6 +70,11 @@ def _behind_a_wall() -> Case:
     case = convoy_case()
     case.world = world(buildings=(building(-1000.0, 3.0, 5000.0, 8.0, 20.0),))
     return case
+
+
+def _seen_for_less() -> Case:
+    """60 % are enough, as stated."""
+    return stated(convoy_case(), 'visible_fraction', ('uav1', 'bus1'), '>=', 0.6)
 
 
 def _mission(case: Case, **values: object) -> Case:
@@ -189,6 +194,7 @@ ROWS = (
     Row(id='m1.tracked', make=lambda: cut(convoy_case(), 800), reason=SHORT),
     Row(id='m1.visible', make=convoy_case, margin=1.0 - 0.7),
     Row(id='m1.visible', make=_behind_a_wall, margin=0.0 - 0.7),
+    Row(id='m1.visible', make=_seen_for_less, margin=1.0 - 0.6, what='stated'),
     Row(id='m1.visible', make=_bus_gone_early, reason=GONE),
     Row(id='m1.visible', make=_hover_on_ground, reason=EMPTY, what='hover'),
     # At capture the UAV is 20.2 - 25 * 0.75 = 1.45 m away: less than it drifts later.

@@ -178,6 +178,13 @@ _NEAR = 'when the van comes within 30 m of the ego car'
             'and stay at least 100 m apart.',
             'apart',
         ),
+        ('No drone may fly above 50 m. Two drones hover at 30 m.', 'No drone'),
+        ('No car may exceed 40 km/h. Two cars drive along the main road.', 'No car'),
+        (
+            'The drone that tracks the bus hovers at 40 m; the drone that tracks the taxi lands '
+            'after 30 s.',
+            'the drone',
+        ),
     ],
 )
 def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
@@ -246,6 +253,7 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A drone hovers over a van for 20 s, then tracks it.',
         'After the drone has tracked the van for 10 s, it hovers over City Hall.',
         'When a van comes within 25 m of the ego car, it changes to the left lane.',
+        'Two drones hover at 30 m. No drone may fly above 50 m.',
     ],
 )
 def test_what_elements_say_is_not_doubted(prompt: str) -> None:

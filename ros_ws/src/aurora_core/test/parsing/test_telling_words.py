@@ -137,6 +137,26 @@ def _unread(prompt: str) -> list[str]:
         ('A van brakes as a pedestrian crosses.', 'as a pedestrian'),
         ('A pedestrian crosses as the ego approaches.', 'as the ego'),
         ('The ego never exceeds 30 km/h while the drone is within 50 m.', 'while the drone'),
+        ('The bus may stop at the crosswalk, yet it yields to the pedestrian.', 'may'),
+        ('A drone alerts the ego car when a pedestrian starts crossing.', 'starts crossing'),
+        ('When a pedestrian enters the crosswalk, the ego car brakes.', 'enters the crosswalk'),
+        ('When the drone sees a pedestrian on the road, it alerts the ego car.', 'on the road'),
+        ('Two drones patrol the road at 40 m.', 'patrol the road'),
+        ('Once the truck arrives at City Hall, the drone lands there.', 'lands there'),
+        ('When a bus reaches City Hall, the drone hovers there at 35 m.', 'hovers there'),
+        ('Each of three drones hovers over a different intersection.', 'a different intersection'),
+        ('Drone A hovers as high as drone B, which hovers at 35 m.', 'as high as'),
+        (
+            'By the time the ego car reaches the intersection, the drone must be hovering there '
+            'at 40 m.',
+            'By the time',
+        ),
+        ('Drone one tracks the taxi for 20 s before drone two takes over.', 'takes over'),
+        (
+            'The drone does not start to follow the van until the van has left the intersection.',
+            'has left the intersection',
+        ),
+        ('The drone must see the truck 75 % of the time during 40 s.', '75 % of the time'),
     ],
 )
 def test_admitted(prompt: str, quoted: str) -> None:
@@ -179,6 +199,13 @@ def test_admitted(prompt: str, quoted: str) -> None:
         'The scenario lasts 100 s. A drone hovers at 40 m for 60 s the whole time.',
         'A drone tracks a van and sees it for 20 seconds without interruption.',
         'A drone tracks a van and always keeps it in view without interruption.',
+        'The bus may start only after the message of the drone.',
+        'No drone may fly above 50 m.',
+        'The drone may fly at most 60 m high.',
+        'A pedestrian starts crossing at 20 s.',
+        'The drone flies to City Hall and hovers there for 20 s at 35 m.',
+        'The first drone tracks the bus for 20 s, then the second drone takes over.',
+        'A drone hovers over City Hall at 50 m and sees a bus for 75 % of the time.',
     ],
 )
 def test_what_something_carries_is_read(prompt: str) -> None:

@@ -10,7 +10,7 @@ from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.parsing.parser import ParseContext, parse_offline
 from aurora_core.planning.bounds import bent
-from aurora_core.planning.complete import approaching, meeting, passed, yielding
+from aurora_core.planning.complete import approaching, meeting, passed, standing, yielding
 from aurora_core.spec.own_events import let_pass
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import Behavior, Placement
@@ -140,3 +140,15 @@ def test_who_approaches_nobody_named_comes_nearer_to_whom_it_is_placed_to() -> N
         name: (a.behaviors[0].target, a.behaviors[0].target_inferred) for name, a in done.items()
     }
     assert targets == {'van1': ('ego', True), 'ego': ('bus1', True), 'bus1': ('ego', True)}
+
+
+def test_who_stops_somewhere_and_waits_does_so_there() -> None:
+    """A wait of its own would be kept by whoever stands before it has set off."""
+    told = 'The van stops at the intersection and waits there for at least 5 seconds.'
+    read = parse_offline(told, CONTEXT).spec
+    assert read is not None
+    (van,) = standing(read).agents
+    (stop,) = van.behaviors
+    assert (stop.kind, stop.target) == (BehaviorKind.STOP, 'intersection')
+    assert stop.duration_s is not None
+    assert stop.duration_s.value == 5.0

@@ -33,8 +33,16 @@ class VisibleFraction(OfSight):
 
 
 def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:
-    """Return that a UAV sees its target for most of its mission."""
-    share = inputs.tolerances.visible_fraction
+    """Return that a UAV sees its target for most of its mission, or for a lesser stated share."""
+    shares = [inputs.tolerances.visible_fraction]
+    shares += [
+        stated.value.value
+        for stated in inputs.spec.conditions
+        if stated.quantity == QuantityName.VISIBLE_FRACTION
+        and stated.op in ('>=', '>')
+        and stated.of == (mission.uav, target)
+    ]
+    share = min(shares)
     return share_condition(
         id=f'{mission.mission}.visible',
         sentence=f'{mission.uav} sees {target} for {number(100 * share)} % of {mission.mission}',

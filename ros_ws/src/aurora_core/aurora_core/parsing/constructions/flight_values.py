@@ -162,6 +162,8 @@ def _bare_length(frame: Frame, found: FlightValues, mode: MissionMode | None) ->
         behind = frame.scene.prompt[adjunct.end :].lstrip().lower()
         if behind.startswith(('between', 'apart')):
             continue  # a separation
+        if frame.scene.prompt[: adjunct.start].rstrip().lower().endswith(' for'):
+            continue  # a way: `follows the truck for 400 m`
         keeps = frame.key == 'keep' and mode is None and _follows_somebody(frame)
         hangs = adjunct.prep == 'at' and any(  # `above the ego at 40 m`
             a.kind is AdjunctKind.PHRASE and a.key == 'over' and a.end <= adjunct.start

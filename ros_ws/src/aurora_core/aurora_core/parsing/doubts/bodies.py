@@ -51,6 +51,8 @@ _HALF = re.compile(r'(?:a|an|one|the) \w+$', re.IGNORECASE)
 # Of whom one is aware before something happens to them, which the next clause tells.
 _AWAITS = frozenset({'see', 'wait'})
 _ENDED = frozenset({'no longer'})
+# What stands before somebody who was not there before.
+_NEW = frozenset({Determiner.INDEFINITE, Determiner.ONE})
 _NAMED = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.UAV, NounKind.EGO})
 
 
@@ -243,10 +245,34 @@ def twins(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             if any(a.kind in _FINITE for a in stretch(told, k + 1)):
                 continue  # `after it has stopped | the drone warns the ego`
             done_to = (k > 0 and told[k - 1].kind is AtomKind.VERB) or _above(told[:k])
-            if done_to and any(
-                b.noun is not None and b.noun.kind is NounKind.UAV for b in told[:k]
-            ):
+            earlier = [
+                j
+                for j, b in enumerate(told[:k])
+                if b.noun is not None and b.noun.kind is NounKind.UAV
+            ]
+            # `the drone that tracks the bus hovers; the drone that tracks the taxi lands`
+            told_apart = _described(told, k) and any(_described(told, j) for j in earlier)
+            if told_apart or (done_to and earlier):
                 yield Span(start=atom.start, end=atom.end)
+
+
+def _described(told: Sequence[Atom], k: int) -> bool:
+    """Tell whether a relative clause says which one a noun means."""
+    return k + 1 < len(told) and told[k + 1].kind is AtomKind.RELATIVE
+
+
+def denied(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`no car exceeds 40 km/h. Two cars drive`: of whom nobody does so is no body more."""
+    for k, (no, atom) in enumerate(pairwise(atoms)):
+        noun = atom.noun
+        if no.kind is not AtomKind.NEGATION or no.words != 'no' or noun is None:
+            continue
+        if noun.kind not in _NAMED or clause_of(spec, atom) is None:
+            continue
+        others = (b.noun for b in atoms[k + 2 :] if b.noun is not None)
+        same = [b for b in others if (b.kind, b.key) == (noun.kind, noun.key)]
+        if any(b.count > 1 or b.determiner in _NEW for b in same):
+            yield Span(start=no.start, end=atom.end)
 
 
 def _above(before: Sequence[Atom]) -> bool:

@@ -14,8 +14,10 @@ from aurora_core.parsing.coverage import parameters
 from aurora_core.parsing.doubts.clauses import meet
 from aurora_core.spec.parameter import Parameter, Provenance, Unit
 from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.reference import is_place
 from aurora_core.spec.scenario import (
     AgentAction,
+    ArrivalTrigger,
     Behavior,
     Clause,
     DistanceTrigger,
@@ -418,6 +420,59 @@ def _lanes(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(m.pattern is Pattern.LAWNMOWER for m in spec.missions if m.id in clause.ids)
 
 
+def _distinct(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Flights to places of which no two are the same."""
+    places = [m.target for m in spec.missions if m.id in clause.ids]
+    return len(set(places)) == len(places) > 1
+
+
+def _at_place(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A flight to something, somebody who does so at a place, or no place that is named."""
+    told = [b for a in spec.agents if a.id in clause.ids for b in a.behaviors]
+    here = [b for b in told if b.span is not None and meet(b.span, clause.span)]
+    here += [b for b in told if b.kind is BehaviorKind.PARK]
+    acts = [e.action for e in spec.events if e.id in clause.ids]
+    lands = any(isinstance(a, UavAction) and a.do == 'land' for a in acts)
+    if any(b.target is not None for b in here) or (_watches(spec, clause) and not lands):
+        return True
+    places = [b.target for a in spec.agents for b in a.behaviors]
+    places += [p.of for a in spec.agents for p in a.placements]
+    places += [m.target for m in spec.missions]
+    places += [e.trigger.place for e in spec.events if isinstance(e.trigger, ArrivalTrigger)]
+    return not any(place is not None and is_place(place) for place in places)
+
+
+def _handed_over(spec: ScenarioSpec, clause: Clause) -> bool:
+    """An order, where no UAV watches another one."""
+    uavs = {uav.id for uav in spec.uavs}
+    return _sequence(spec, clause) and not any(m.target in uavs for m in spec.missions)
+
+
+def _not_done(spec: ScenarioSpec, clause: Clause) -> bool:
+    """No deed of the clause that something waits for the end of."""
+    awaited = {e.trigger.event for e in spec.events if isinstance(e.trigger, EventDoneTrigger)}
+    return not any(e.id in awaited for e in spec.events if e.id in clause.ids)
+
+
+def _parted(spec: ScenarioSpec, clause: Clause) -> bool:
+    """An event that waits for a greater distance."""
+    triggers = [e.trigger for e in spec.events if e.id in clause.ids]
+    return any(isinstance(t, DistanceTrigger) and t.on == 'distance_above' for t in triggers)
+
+
+def _crosses(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Somebody who crosses the road."""
+    acts = (e.action for e in spec.events)
+    return any(isinstance(a, AgentAction) and a.do == 'cross' for a in acts) or any(
+        b.kind is BehaviorKind.CROSS for a in spec.agents for b in a.behaviors
+    )
+
+
+def _over_streets(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A flight along a street."""
+    return any(m.over_streets or m.target for m in spec.missions if m.id in clause.ids)
+
+
 CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'linked': _linked,
     'caused': _caused,
@@ -468,6 +523,13 @@ CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'several': _several,
     'retries': _retries,
     'drift': _drift,
+    'distinct': _distinct,
+    'at_place': _at_place,
+    'handed_over': _handed_over,
+    'not_done': _not_done,
+    'parted': _parted,
+    'crosses': _crosses,
+    'over_streets': _over_streets,
 }
 
 

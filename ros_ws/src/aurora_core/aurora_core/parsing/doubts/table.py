@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterable, Sequence
 from aurora_core.parsing.atoms import Atom
 from aurora_core.parsing.doubts.bodies import (
     crowded,
+    denied,
     gapped,
     halved,
     idle,
@@ -80,6 +81,7 @@ from aurora_core.spec.scenario import ScenarioSpec
 
 _Check = Callable[[ScenarioSpec, Sequence[Atom]], Iterable[Span]]
 _CHECKS: tuple[_Check, ...] = (
+    denied,
     untold,
     comparisons,
     without_part,
