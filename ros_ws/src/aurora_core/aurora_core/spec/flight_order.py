@@ -138,6 +138,15 @@ def keeps_altitude(spec: ScenarioSpec, mission: UavMission) -> bool:
     return is_open and stays_where_it_is(spec, mission)
 
 
+def begins_as_high(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a mission without a place and a stated altitude begins as high as its UAV is.
+
+    "Hovers at 120 m, then flies a line of 400 m": it flies that at 120 m.
+    """
+    is_open = mission.altitude_m.provenance is not Provenance.EXPLICIT
+    return is_open and (stays_where_it_is(spec, mission) or begins_where_it_is(spec, mission))
+
+
 def left_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:
     """Return the event that may end a mission, None when only its own end does."""
     after = mission_after(spec, mission)
