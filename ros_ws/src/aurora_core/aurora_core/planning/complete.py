@@ -15,7 +15,7 @@ from aurora_core.planning.bounds import bent
 from aurora_core.planning.deadlines import hurried
 from aurora_core.planning.ids import free_ids
 from aurora_core.planning.kept_distances import at_start_where_changed
-from aurora_core.planning.orders import waiting
+from aurora_core.planning.orders import following, waiting
 from aurora_core.spec.events import Event, MessageTrigger, actor_of, least_due_s
 from aurora_core.spec.flight_order import begins_as_high
 from aurora_core.spec.own_events import overtakings
@@ -58,7 +58,7 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         limits: Limits in force.
     """
     spec = meeting(passed(blowing(spec, limits)))
-    spec = waiting(hovering(reporting(telling(yielding(approaching(spec))))))
+    spec = following(waiting(hovering(reporting(telling(yielding(approaching(spec)))))))
     timed = at_start_where_changed(hurried(spec, limits))
     return as_high(layered(as_high(bent(lasting(timed), limits)), limits))
 
