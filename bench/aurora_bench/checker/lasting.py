@@ -22,6 +22,9 @@ STANDS = ('stop', 'wait', 'park')
 MOVES = ('drive', 'walk', 'circulate', 'follow', 'emergency_run')
 # Setting off again takes so long (s).
 SET_OFF_S = 1.0
+# So exactly one knows when a time is over (s), and that somebody is as fast as asked (m/s); inside
+# "at least" a time one may be by so much (s).
+EDGE_S, LOOSE_MPS, SPARE_S = 0.3, 0.5, 1.5
 
 
 def lasting(
@@ -45,11 +48,7 @@ def lasting(
     asked = wanted(requirement, 'duration_s', case.variation, limits.DURATION)
     if asked is None:
         return holds('')
-    own = case.variation.get(f'{requirement.get("id")}.duration_s') or (asked.value, asked.value)
-    open_up = float(own[0]) == asked.value < float(own[1])
-    open_down = float(own[1]) == asked.value > float(own[0])
-    low = asked.value if open_up else 0.0 if open_down else asked.low
-    high = inf if open_up else asked.value if open_down else asked.high
+    low, high = _between(case, requirement, asked)
     kind = str(requirement.get('behavior'))
     if kind in STANDS:
         return _stands(case, kind, body, near, low, high)
@@ -59,6 +58,66 @@ def lasting(
     if kind not in MOVES:
         return does_not(f'{kind} has no duration')
     return _moves(case, requirement, body, targets, held_up, low)
+
+
+def _between(case: Case, requirement: Requirement, asked: Wanted) -> tuple[float, float]:
+    """Return the least and the greatest time that counts (s)."""
+    own = case.variation.get(f'{requirement.get("id")}.duration_s') or (asked.value, asked.value)
+    open_up = float(own[0]) == asked.value < float(own[1])
+    open_down = float(own[1]) == asked.value > float(own[0])
+    low = asked.value if open_up else 0.0 if open_down else asked.low
+    return low, inf if open_up else asked.value if open_down else asked.high
+
+
+def over_s(case: Case, trigger: Requirement) -> list[tuple[float, float]] | None:
+    """Return between which times (s) what somebody does has gone on for as long as annotated.
+
+    Args:
+        case: Recording and annotation.
+        trigger: Says who, and which behaviour.
+
+    Returns:
+        One pair for every stretch that is long enough; None where no time is annotated.
+    """
+    who, kind = trigger.get('who'), str(trigger.get('behavior'))
+    for one in case.annotation.flat():
+        if (one['kind'], one.get('agent'), one.get('behavior')) != ('behavior', who, kind):
+            continue
+        asked = wanted(one, 'duration_s', case.variation, limits.DURATION)
+        if asked is not None:
+            low, high = _between(case, one, asked)
+            high = asked.value + SPARE_S if high == inf else high
+            return [
+                (begin + low - EDGE_S, sure + high + EDGE_S)
+                for body in case.bodies(who)
+                for begin, sure, lasts in _stretches(case, one, body)
+                if lasts >= low - EDGE_S
+            ]
+    return None
+
+
+def _stretches(
+    case: Case, requirement: Requirement, body: str
+) -> list[tuple[float, float, float]]:
+    """Return from when on a body perhaps, and surely, does something, and for how long (s)."""
+    scene, kind = case.scene, str(requirement.get('behavior'))
+    if kind in STANDS:
+        does = (scene.speed(body) < limits.STOPPED_MPS) & scene.present(body)
+        if kind == 'stop':
+            does &= np.logical_or.accumulate(scene.speed(body) > limits.STARTED_MPS)
+        return [(a * scene.dt_s, a * scene.dt_s, (b - a) * scene.dt_s) for a, b in runs_of(does)]
+    does = (scene.speed(body) > limits.STARTED_MPS) & scene.present(body)
+    speed, found = wanted(requirement, 'speed_mps', case.variation, limits.SPEED), []
+    for a, b in runs_of(does):
+        perhaps = sure = a
+        if speed is not None:
+            off = np.array([speed.off(v) for v in scene.speed(body)[a:b].tolist()])
+            if not (off <= speed.slack + LOOSE_MPS).any():
+                continue
+            perhaps = a + int(np.argmax(off <= speed.slack + LOOSE_MPS))
+            sure = a + int(np.argmin(off))
+        found.append((perhaps * scene.dt_s, sure * scene.dt_s, (b - perhaps) * scene.dt_s))
+    return found
 
 
 def _stands(

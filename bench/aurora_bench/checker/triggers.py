@@ -12,6 +12,7 @@ import numpy as np
 
 from aurora_bench.checker import headways, limits
 from aurora_bench.checker.case import Case
+from aurora_bench.checker.lasting import over_s
 from aurora_bench.checker.phases import ascent_end_tick, landing_tick, segments
 from aurora_bench.checker.recording import BoolArray, FloatArray, LinkKind
 from aurora_bench.checker.scene import runs_of
@@ -99,6 +100,8 @@ def fired(case: Case, trigger: Mapping[str, Any], done: DoneTimes) -> Fired:
                 Instant(i.early_s + after, i.late_s + after) for i in finished.instants
             )
             return Fired(shifted, finished.unclear, f'{event} done, {finished.why}')
+        case 'behavior_done':
+            return _lasted(case, trigger)
         case 'mission_done':
             ends = [
                 float(scene.times[min(s.end, scene.recording.ticks - 1)])
@@ -111,6 +114,15 @@ def fired(case: Case, trigger: Mapping[str, Any], done: DoneTimes) -> Fired:
             return _battery(case, trigger)
         case other:
             return Fired(unclear=f'trigger {other!r} is not known')
+
+
+def _lasted(case: Case, trigger: Mapping[str, Any]) -> Fired:
+    """Return when what somebody does has gone on for its stated time."""
+    what = f'{trigger.get("who")} to {trigger.get("behavior")} for its time'
+    found = over_s(case, trigger)
+    if found is None:
+        return Fired(unclear=f'nobody annotates {what}')
+    return Fired(_sorted([Instant(max(a, 0.0), b) for a, b in found]), why=what)
 
 
 def edges(case: Case, true: BoolArray, blur_s: float = 0.0) -> tuple[Instant, ...]:

@@ -112,6 +112,8 @@ def trigger_fields(
             if name == 'after_s' and other is None:
                 other = delay_s
             fields[key] = rule.counts(key, value, other)
+        elif name == 'behavior':
+            fields[key] = value == other
         elif name != 'on':
             fields[key] = isinstance(value, str) and subject.binding.means(value, other)
     if wanted.a is not None and wanted.b is not None:  # a distance has no direction

@@ -76,6 +76,8 @@ def _trigger(name: str, body: str, who: str, landmark: str) -> list[Doc] | str:
         return 'UAVs alone do this'
     if name in ('speed_below', 'speed_above') and flown:
         return 'a speed of vehicles and persons'
+    if name == 'behavior_done' and flown:
+        return 'what a UAV does for a time is a mission'
     if name == 'time' and body != 'vehicle':
         return 'it is nobody who does this'
     stop: Doc = {'do': 'stop', 'agent': 'ego'}
@@ -122,6 +124,9 @@ def _trigger(name: str, body: str, who: str, landmark: str) -> list[Doc] | str:
             acts = first if flown else {'do': 'stop', 'agent': who}
             e0 = when({'on': 'time', 'at_s': 20.0}, acts, 'e0')
             return [*moving, *up, e0, when({'on': name, 'event': 'e0', 'after_s': 3.0}, land)]
+        case 'behavior_done':
+            lasts: Doc = {'on': name, 'who': who, 'behavior': moves[who]}
+            return [*mine, does(who, moves[who], duration_s=15.0), *up, when(lasts, land)]
         case 'mission_done':
             return [*ego, *tracks, when({'on': name, 'uav': who}, stop)]
         case 'battery_below':

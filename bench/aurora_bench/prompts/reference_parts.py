@@ -277,6 +277,10 @@ def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
     elif t.on == 'battery_below':
         found['uav'] = names.uav(t.uav)
         found['value'] = numbers.stated('trigger.value', 0.5 if t.value is None else t.value, '1')
+    elif t.on == 'behavior_done':
+        if t.behavior is None:
+            raise NotExpressibleError('nobody says what is to last')
+        found |= {'who': names.agent(t.who), 'behavior': t.behavior}
     elif t.on == 'mission_done':
         found['uav'] = names.uav(t.uav)
     elif t.on == 'time':

@@ -93,6 +93,14 @@ def _event(
         trigger = requirement.trigger
         for name in stated_fields(trigger).keys() - FIELDS_OF_TRIGGER[trigger.on] - {'on'}:
             yield _error(prompt, Rule.FORMAT, f'{requirement.id}: {trigger.on} has no {name!r}')
+        if trigger.behavior is not None and not any(
+            isinstance(r, BehaviorRequirement)
+            and (r.agent, r.behavior) == (trigger.who, trigger.behavior)
+            and r.duration_s is not None
+            for r in flat(prompt.requirements)
+        ):
+            what = f'{trigger.who} to {trigger.behavior}'
+            yield _error(prompt, Rule.REFERENCE, f'nobody says for how long {what}')
         if trigger.event is not None and trigger.event not in events - {requirement.ref}:
             yield _error(
                 prompt, Rule.REFERENCE, f'{requirement.id} waits for unknown {trigger.event!r}'

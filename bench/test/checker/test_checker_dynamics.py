@@ -107,3 +107,34 @@ def test_gusts_as_recorded(stage: Any, value: float, outcome: str) -> None:
     stage.world = type(stage.world)(wind_mps=(3.0, 4.0), gust_mps=3.0)
     stage.uav('drone', lambda t: (4.0 * t, 0.0, 30.0))
     assert stage.says({'kind': 'world', 'field': 'gust_mps', 'value': value}) == outcome
+
+
+@pytest.mark.parametrize(
+    ('kind', 'stands_s', 'sets_off_s', 'outcome'),
+    [
+        ('stop', 8.0, 18.2, 'holds'),
+        ('stop', 8.0, 14.0, 'does_not'),
+        ('stop', 8.0, 22.0, 'does_not'),
+        ('stop', 4.0, 14.2, 'does_not'),
+        ('drive', 0.0, 16.0, 'holds'),
+        ('drive', 0.0, 9.0, 'does_not'),
+        ('drive', 0.0, 20.0, 'does_not'),
+    ],
+)
+def test_what_follows_a_stated_time(
+    stage: Any, kind: str, stands_s: float, sets_off_s: float, outcome: str
+) -> None:
+    """The bus is to set off 8 s after the car has stopped at 10 s, or is at 8 m/s at 8 s."""
+    stops = [(8.0, 8.0), (9.8, 8.0), (10.0, 0.0), (10.0 + stands_s, 0.0), (12.0 + stands_s, 8.0)]
+    drives = [(0.0, 2.0), (7.5, 2.0), (8.0, 8.0), (60.0, 8.0)]
+    times, speeds = zip(*(stops if kind == 'stop' else drives), strict=True)
+    stage.drive('car1', 'car', lambda t: np.interp(t, times, speeds), x=STREET_X)
+    begun = np.maximum(stage.t - sets_off_s, 0.0)
+    stage.ground('bus1', 'bus', -60.0 - 2.0 * begun, 38.35)
+    lasts = {'kind': 'behavior', 'agent': 'car1', 'behavior': kind, 'duration_s': 8.0}
+    lasts |= {'speed_mps': 8.0} if kind == 'drive' else {}
+    over = {'on': 'behavior_done', 'who': 'car1', 'behavior': kind}
+    follows = _event({'do': 'start', 'agent': 'bus1'}, over)
+    assert stage.says(follows, lasts) == outcome
+    alone = _event({'do': 'start', 'agent': 'bus1'}, {**over, 'behavior': 'wait'})
+    assert stage.says(alone, lasts) == 'cannot_tell'

@@ -328,6 +328,13 @@ def _half_the_time(executor: ScenarioExecutor) -> Stepper:
     return other
 
 
+def _over_too_soon(executor: ScenarioExecutor) -> Stepper:
+    """Take what somebody does for some time for over after half of it."""
+    for watch in executor._runner._progress.doing.values():
+        watch._need //= 2
+    return executor
+
+
 def _leave_it_behind(executor: ScenarioExecutor) -> Stepper:
     """Let nobody keep to those beside it."""
     executor._follower._following.clear()
@@ -460,6 +467,13 @@ PLANTED = (
         'A van waits for 14 seconds. A drone hovers at 30 meters for 10 seconds.',
         _half_the_time,
         'condition:van1.wait',
+    ),
+    _planted(
+        'goes on before the time is over',
+        'A car drives at 10 m/s for 20 s and then accelerates to 15 m/s.',
+        _over_too_soon,
+        'condition:e1.within',
+        'condition:car1.drive.time',
     ),
     _planted(
         'beside somebody at the start only',

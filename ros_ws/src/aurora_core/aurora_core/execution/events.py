@@ -28,6 +28,7 @@ from aurora_core.quantities.actions import (
     rest_s,
     takes_time,
 )
+from aurora_core.quantities.doing import doing_watches
 from aurora_core.quantities.headway import pair_watches
 from aurora_core.spec.events import BRAKING, actor_of, reports_own_altitude
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
@@ -82,7 +83,7 @@ class EventRunner:
         lasting: Who is to do something for some time first.
 
     Attributes:
-        sped_up: Rows of agents that drive as fast as an event has told them.
+        sped_up: Rows of agents that an event has told how fast to drive, at the last step.
         slowed_mps: How fast the agents of rows may drive that an event has told to stop, or to be
             no faster: whoever may set off only later keeps to that.
     """
@@ -139,6 +140,7 @@ class EventRunner:
         self._touchdown_m = battery.touchdown_m
         self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
         self._watches = pair_watches(roster, events)
+        self._progress.doing = doing_watches(spec, rules, roster.dt_s)
         self._progress.rests_s = {e.id: rest_s(spec.events, e, rules) for e in events}
         self._messages = 0
 
@@ -196,8 +198,8 @@ class EventRunner:
             if seen.airborne(machine.plan.id, self._touchdown_m):
                 flown = self._progress.airborne_ticks
                 flown[machine.plan.id] = flown.get(machine.plan.id, 0) + 1
-        for event_id, watch in self._watches.items():
-            self._progress.pairs[event_id] = seen.pair_s(watch)
+        self._progress.pairs = {e: seen.pair_s(w) for e, w in self._watches.items()}
+        self.sped_up.clear()
         commands = [self._drive(row) for row in self._yielding.passed(seen)]
         for state in self._states:
             if state.done:
@@ -468,7 +470,7 @@ class EventRunner:
         if goal_mps is None:
             return []
         commands = [GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=goal_mps)]
-        if action.do == 'accelerate':
+        if action.do in ('start', 'accelerate'):
             self.sped_up.add(row)
         # Who stands has no speed to halve.
         if action.do == 'stop' or (action.do == 'slow' and action.value_mps is not None):

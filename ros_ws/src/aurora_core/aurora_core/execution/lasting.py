@@ -77,6 +77,10 @@ class Standing:
         if index in self._stop_ticks:
             self._until[index] = tick + self._stop_ticks[index]
 
+    def leaves(self, index: int) -> None:
+        """Note that somebody has been told to drive on, and how fast."""
+        self._until.pop(index, None)
+
     def over(self, tick: int) -> list[int]:
         """Return who has stood for its time, each once."""
         found = [index for index, until in self._until.items() if until <= tick]

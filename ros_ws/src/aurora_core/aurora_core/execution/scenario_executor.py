@@ -171,7 +171,10 @@ class ScenarioExecutor:
         commands += self._overtaker.step(seen)
         commands += self._follower.step(tick, seen, self._held)
         commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
-        for index in sorted(self._held & self._runner.sped_up):
+        for index in sorted(self._runner.sped_up):
+            self._standing.leaves(index)
+            if index not in self._held:
+                continue
             # The first command says how fast it drives; that an event has told it.
             self._held.discard(index)
             commands += self._start_commands(index, s.agents[index])[1:]

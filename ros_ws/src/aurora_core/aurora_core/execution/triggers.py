@@ -10,12 +10,14 @@ from math import inf
 from aurora_core.execution.observe import Observation
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities.actions import APART_M, CLIMBED_M
+from aurora_core.quantities.doing import DoingWatch
 from aurora_core.quantities.motion import battery
 from aurora_core.quantities.triggers import arrives_on_sidewalk, needs_change
 from aurora_core.spec.scenario import (
     AltitudeTrigger,
     ArrivalTrigger,
     BatteryTrigger,
+    BehaviorDoneTrigger,
     DistanceTrigger,
     Event,
     EventDoneTrigger,
@@ -53,6 +55,7 @@ class Progress:
     missions_done: set[str] = field(default_factory=set)  # UAV ids
     was_false: set[str] = field(default_factory=set)  # event ids
     pairs: dict[str, float] = field(default_factory=dict)  # event -> headway, ttc at the tick (s)
+    doing: dict[str, DoingWatch] = field(default_factory=dict)  # by event
     rests_s: dict[str, float] = field(default_factory=dict)  # by event, after a stop
     looking: set[str] = field(default_factory=set)  # UAVs between their ascent and way home
 
@@ -78,6 +81,9 @@ def holds(
             receiver == trigger.by and trigger.sender in (None, sender)
             for receiver, sender in progress.received
         )
+    if isinstance(trigger, BehaviorDoneTrigger):
+        watch = progress.doing.get(event.id)
+        return watch is not None and watch.step(observation.speed_mps(trigger.who))
     if isinstance(trigger, BatteryTrigger):
         flown = float(progress.airborne_ticks.get(trigger.uav, 0))
         return battery(flown, dt_s, progress.endurance_s) < trigger.value.value

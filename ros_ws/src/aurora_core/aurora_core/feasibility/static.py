@@ -12,7 +12,14 @@ from collections.abc import Iterator
 
 from aurora_core.feasibility.operands import members_fit
 from aurora_core.outcomes.feasibility import StaticFinding
-from aurora_core.spec.events import AgentAction, MessageTrigger, MissionDoneTrigger, SendMessage
+from aurora_core.spec.doing import doing
+from aurora_core.spec.events import (
+    AgentAction,
+    BehaviorDoneTrigger,
+    MessageTrigger,
+    MissionDoneTrigger,
+    SendMessage,
+)
 from aurora_core.spec.prohibitions import ForbiddenAgent, ForbiddenBehavior
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import is_place
@@ -48,6 +55,7 @@ def check_static(spec: ScenarioSpec) -> Iterator[StaticFinding]:
     """Yield what of a specification does not fit together, with what would mend it."""
     yield from _conditions(spec)
     yield from _messages(spec)
+    yield from _behaviors(spec)
     yield from _missions(spec)
     yield from _scene(spec)
 
@@ -94,6 +102,18 @@ def _messages(spec: ScenarioSpec) -> Iterator[StaticFinding]:
                 field=f'events/{event.id}/trigger',
                 relation=f'{trigger.by} waits for a message that nobody sends',
                 mend=f'add an event that sends one to {trigger.by}',
+                span=event.span,
+            )
+
+
+def _behaviors(spec: ScenarioSpec) -> Iterator[StaticFinding]:
+    for event in spec.events:
+        trigger = event.trigger
+        if isinstance(trigger, BehaviorDoneTrigger) and doing(spec, trigger) is None:
+            yield StaticFinding(
+                field=f'events/{event.id}/trigger/behavior',
+                relation=f'{trigger.who} is not to {trigger.behavior} for a stated time',
+                mend='state for how long',
                 span=event.span,
             )
 

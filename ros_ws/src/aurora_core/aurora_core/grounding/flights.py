@@ -65,7 +65,7 @@ _DRIFTS_M = 0.1
 # One at the edge of that tolerance is inside it, whatever is rounded (m).
 _ROUNDING_M = 5e-7
 
-# Steps in which a flight at a landmark looks for free air above (m).
+# Steps in which a flight looks for free air above (m).
 _HIGHER_M = 10.0
 
 
@@ -159,25 +159,30 @@ class FlightPlanner:
             return staying(spec, mission, plan, self._limits, self._tolerances)
         if mission.mode is MissionMode.TRACK:
             return self._track(spec, mission, site, speed_mps)
+        free = mission.altitude_m.provenance is Provenance.DEFAULT and len(spec.uavs) == 1
+        higher = tuple(self._higher(mission)) if free else ()
         here = onward_from(spec, mission, site, before, partial(self._target_mps, spec))
-        if here is not None:
-            onward = self._routes.onward(mission, here, others)
+        for at in () if here is None else (mission, *higher):
+            onward = self._routes.onward(at, here, others)
             if not isinstance(onward, Rejected):
                 return onward
         found = self._at_place(spec, mission, site, speed_mps, others)
-        free = mission.altitude_m.provenance is Provenance.DEFAULT and len(spec.uavs) == 1
-        if not isinstance(found, Rejected) or not free or not is_landmark(mission.target):
+        if not isinstance(found, Rejected) or not is_landmark(mission.target):
             return found
         # A landmark stands where it stands: higher up is the way out that the request leaves open.
+        for at in higher:
+            above = self._at_place(spec, at, site, speed_mps, others)
+            if not isinstance(above, Rejected):
+                return above
+        return found
+
+    def _higher(self, mission: UavMission) -> Iterator[UavMission]:
+        """Yield a mission with an open altitude higher and higher up, inside its domain."""
         top_m = min(mission.altitude_m.high, self._limits.uav_altitude_max_m)
         height_m = mission.altitude_m.value
         while (height_m := height_m + _HIGHER_M) <= top_m:
             altitude = mission.altitude_m.model_copy(update={'value': height_m})
-            higher = mission.model_copy(update={'altitude_m': altitude})
-            above = self._at_place(spec, higher, site, speed_mps, others)
-            if not isinstance(above, Rejected):
-                return above
-        return found
+            yield mission.model_copy(update={'altitude_m': altitude})
 
     def _at_place(
         self,

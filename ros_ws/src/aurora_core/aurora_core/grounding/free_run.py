@@ -9,8 +9,9 @@ from math import inf
 
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.quantities.actions import FROM_MOTION
+from aurora_core.spec.doing import dated_s
 from aurora_core.spec.prohibitions import keeps_on
-from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec, TimeTrigger
+from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 
 # Time that what is done on the move takes to show (s).
 _SHOWS_S = 8.0
@@ -33,7 +34,7 @@ def needed_run_m(spec: ScenarioSpec, agent: GroundAgent, pace_mps: float) -> flo
         pace_mps: How fast it drives.
     """
     times_s = [
-        e.trigger.at_s.value if isinstance(e.trigger, TimeTrigger) else _SOON_S
+        _SOON_S if (at_s := dated_s(spec, e)) is None else at_s
         for e in spec.events
         if isinstance(e.action, AgentAction)
         and e.action.agent == agent.id

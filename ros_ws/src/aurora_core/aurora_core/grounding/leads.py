@@ -13,7 +13,8 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import LEVELS_OFF_S, Limits
 from aurora_core.knowledge.settings import Settings
 from aurora_core.quantities.actions import FROM_MOTION
-from aurora_core.spec.events import AgentAction, TimeTrigger
+from aurora_core.spec.doing import dated_s
+from aurora_core.spec.events import AgentAction
 from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission
@@ -86,8 +87,8 @@ def _sets_off_at_once(spec: ScenarioSpec, split: SceneSplit, target: GroundAgent
 def _slowed_at_s(spec: ScenarioSpec, target: GroundAgent) -> Iterator[float]:
     """Yield the stated times at which a target has to brake or stop, s."""
     for event in spec.events:
-        action, trigger = event.action, event.trigger
-        if not isinstance(action, AgentAction) or not isinstance(trigger, TimeTrigger):
+        action, at_s = event.action, dated_s(spec, event)
+        if not isinstance(action, AgentAction) or at_s is None:
             continue
         if action.agent == target.id and action.do in FROM_MOTION:
-            yield trigger.at_s.value
+            yield at_s

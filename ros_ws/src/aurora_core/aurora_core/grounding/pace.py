@@ -8,7 +8,7 @@ two vehicles have to meet, the front one drives slowly enough for the rear one t
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import inf
 
@@ -16,6 +16,7 @@ from aurora_core.grounding.awaited import awaited_at
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings, SpeedSettings
 from aurora_core.quantities.actions import FROM_MOTION
+from aurora_core.spec.doing import dated_s
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.own_events import own_events
@@ -28,7 +29,6 @@ from aurora_core.spec.scenario import (
     MissionDoneTrigger,
     ScenarioSpec,
     SpeedTrigger,
-    TimeTrigger,
     UavMission,
     VisibilityTrigger,
 )
@@ -280,6 +280,14 @@ def _gains_to_mps(spec: ScenarioSpec, agent: GroundAgent, speeds: SpeedSettings)
     ]
 
 
+def _starts_at_mps(spec: ScenarioSpec, agent: GroundAgent) -> Iterator[float]:
+    """Yield the speeds that an agent is to set off to."""
+    for event in spec.events:
+        action = event.action
+        if isinstance(action, AgentAction) and (action.agent, action.do) == (agent.id, 'start'):
+            yield 0.0 if action.value_mps is None else action.value_mps.value
+
+
 _SLOWS = frozenset({'brake', 'slow', 'stop', 'yield'})
 
 
@@ -341,6 +349,7 @@ def fastest_stated_mps(
                 stated_speed_mps(spec, a, speeds) or 0.0,
                 slows_from_mps(a, speeds),
                 *_gains_to_mps(spec, a, speeds),
+                *_starts_at_mps(spec, a),
             )
             for a in bound
         ),
@@ -350,9 +359,8 @@ def fastest_stated_mps(
 
 def stated_times_s(spec: ScenarioSpec) -> dict[str, float]:
     """Return when events happen at a stated time, or by a chain from one, at the earliest (s)."""
-    times_s = {
-        e.id: e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)
-    }
+    dated = ((e.id, dated_s(spec, e)) for e in spec.events)
+    times_s = {event: at_s for event, at_s in dated if at_s is not None}
     known = -1
     while known != (known := len(times_s)):
         for e in spec.events:
@@ -378,9 +386,9 @@ def timed_way_m(
     speeds = {a.id: stated_speed_mps(spec, a, settings.speeds) or pace_mps for a in agents}
     return max(
         (
-            event.trigger.at_s.value * speeds[event.action.agent]
+            at_s * speeds[event.action.agent]
             for event in spec.events
-            if isinstance(event.trigger, TimeTrigger)
+            if (at_s := dated_s(spec, event)) is not None
             and isinstance(event.action, AgentAction)
             and event.action.do in FROM_MOTION
             and event.action.agent in speeds

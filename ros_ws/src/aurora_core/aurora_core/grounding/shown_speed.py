@@ -20,7 +20,8 @@ from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.quantities.actions import SPEED_ACTIONS
 from aurora_core.quantities.free_road import caught_up_m
-from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec, TimeTrigger
+from aurora_core.spec.doing import dated_s
+from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.slower import slower_mps
 
 # A stated speed shows well when it is held for so long (s), within so much time (s).
@@ -187,7 +188,7 @@ def _are_tied(spec: ScenarioSpec, rear: GroundAgent, front: GroundAgent) -> bool
     )
     bound = any(pair <= set(one.of) for one in spec.conditions)
     timed = any(
-        isinstance(e.trigger, TimeTrigger)
+        dated_s(spec, e) is not None
         and isinstance(e.action, AgentAction)
         and e.action.agent in pair
         for e in spec.events

@@ -105,6 +105,17 @@ def _level_from(spec: ScenarioSpec, own: list[UavMission], mission: UavMission) 
     return max(k for k, m in enumerate(before) if not keeps_altitude(spec, m))
 
 
+def changes_height(inputs: Inputs, mission: MissionArguments) -> bool:
+    """Tell whether a UAV may come to a later mission from another height."""
+    if mission.level_from is not None:
+        return False
+    own = [m.id for m in inputs.spec.missions if m.uav == mission.uav]
+    facts = (inputs.mission_facts(name) for name in own[: mission.index])
+    heights_m = [f.altitude_m for f in facts if f is not None]
+    heights_m += [climb.altitude_m for climb in mission.climbs]
+    return any(abs(z - mission.altitude_m) > mission.altitude_tolerance_m for z in heights_m)
+
+
 def climb_mps(inputs: Inputs) -> float:
     """Return how fast a UAV climbs at least on average when an event asks for it, in m/s."""
     measured = inputs.facts.climb_mps

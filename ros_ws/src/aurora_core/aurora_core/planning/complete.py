@@ -17,9 +17,9 @@ from aurora_core.planning.bounds import bent
 from aurora_core.planning.deadlines import hurried
 from aurora_core.planning.ids import free_ids
 from aurora_core.planning.kept_distances import at_start_where_changed
-from aurora_core.planning.orders import waiting
+from aurora_core.planning.orders import following, waiting
 from aurora_core.spec.events import Event, MessageTrigger, actor_of, least_due_s
-from aurora_core.spec.flight_order import keeps_altitude
+from aurora_core.spec.flight_order import begins_as_high
 from aurora_core.spec.own_events import overtakings
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
@@ -60,7 +60,7 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         limits: Limits in force.
     """
     spec = meeting(passed(standing(blowing(spec, limits))))
-    spec = waiting(hovering(reporting(telling(yielding(approaching(spec))))))
+    spec = following(waiting(hovering(reporting(telling(yielding(approaching(spec)))))))
     timed = at_start_where_changed(hurried(spec, limits))
     return as_high(layered(as_high(bent(lasting(timed), limits)), limits))
 
@@ -419,14 +419,14 @@ def _at_least(mission: UavMission, seconds: float) -> UavMission:
 
 
 def as_high(spec: ScenarioSpec) -> ScenarioSpec:
-    """Return the specification in which who stays where it is stays as high, too.
+    """Return the specification in which who stays, or goes on, where it is does so as high.
 
     Args:
         spec: The request; it is not changed.
     """
     found: list[UavMission] = []
     for mission in spec.missions:
-        if keeps_altitude(spec, mission):
+        if begins_as_high(spec, mission):
             before = next(m for m in reversed(found) if m.uav == mission.uav)
             mission = _at(mission, before.altitude_m.value)
         found.append(mission)

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from aurora_core.planning.ids import free_ids
 from aurora_core.spec.events import (
     AgentAction,
+    BehaviorDoneTrigger,
     Event,
     EventDoneTrigger,
     MessageTrigger,
@@ -20,7 +21,8 @@ from aurora_core.spec.events import (
     UavAction,
 )
 from aurora_core.spec.flight_order import begun_by, end_of
-from aurora_core.spec.scenario import Order, ScenarioSpec, UavMission
+from aurora_core.spec.scenario import Behavior, GroundAgent, Order, ScenarioSpec, UavMission
+from aurora_core.spec.vocabulary import MOVING, STANDING
 
 
 def waiting(spec: ScenarioSpec) -> ScenarioSpec:
@@ -36,6 +38,46 @@ def waiting(spec: ScenarioSpec) -> ScenarioSpec:
     if events == spec.events:
         return spec
     return ScenarioSpec.model_validate({**dict(spec), 'events': events})
+
+
+def following(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the request in which what nobody dates follows what its agent does for some time.
+
+    "Drives at 10 m/s for 20 s and then accelerates to 15 m/s": it does so when the 20 s are over.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when nothing follows so.
+    """
+    ordered = {order.then for order in spec.orders}
+    over = {agent.id: _lasting_one(agent) for agent in spec.agents}
+
+    def timed(event: Event) -> Event:
+        action = event.action
+        if not isinstance(action, AgentAction) or event.trigger or event.id in ordered:
+            return event
+        lasting = over.get(action.agent)
+        if lasting is None or not _is_told_before(lasting, event):
+            return event
+        del over[action.agent]  # what it does next follows that
+        done = BehaviorDoneTrigger(on='behavior_done', who=action.agent, behavior=lasting.kind)
+        return Event.model_validate({**dict(event), 'trigger': done})
+
+    events = tuple(map(timed, spec.events))
+    if events == spec.events:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'events': events})
+
+
+def _lasting_one(agent: GroundAgent) -> Behavior | None:
+    """Return what an agent does for a stated time, None where that is nothing, or several."""
+    found = [b for b in agent.behaviors if b.duration_s is not None]
+    return found[0] if len(found) == 1 and found[0].kind in STANDING | MOVING else None
+
+
+def _is_told_before(behavior: Behavior, event: Event) -> bool:
+    lasts = behavior.duration_s
+    told = None if lasts is None else lasts.span
+    return told is not None and event.span is not None and told.end <= event.span.start
 
 
 def _waits(

@@ -30,6 +30,7 @@ from aurora_core.quantities.actions import (
     takes_time,
 )
 from aurora_core.quantities.braking import braking_mps2
+from aurora_core.quantities.doing import done_tick
 from aurora_core.quantities.headway import MEASURES, pair_series
 from aurora_core.quantities.lane_changes import (
     LANE_CHANGE_S,
@@ -47,6 +48,7 @@ from aurora_core.spec.scenario import (
     AltitudeTrigger,
     ArrivalTrigger,
     BatteryTrigger,
+    BehaviorDoneTrigger,
     DistanceTrigger,
     Event,
     EventDoneTrigger,
@@ -390,6 +392,8 @@ class EventTimes:
                 after_s = max(after_s, rest_s(self.spec.events, event, self.rules.actions))
                 tick = done + whole_ticks(after_s, view.dt_s)
                 return tick if tick < view.ticks else None
+            case BehaviorDoneTrigger():
+                return done_tick(view, self.spec, trigger, self.rules.actions)
             case MissionDoneTrigger():
                 if is_next_anyway(event):
                     return self.action_tick(event.id)

@@ -18,6 +18,7 @@ from aurora_core.spec.events import (
     AltitudeTrigger,
     ArrivalTrigger,
     BatteryTrigger,
+    BehaviorDoneTrigger,
     DistanceTrigger,
     Event,
     EventAction,
@@ -319,6 +320,8 @@ def _trigger(trigger: Trigger) -> str:
             return f'the speed of {who} {over} {_number(value)}'
         case EventDoneTrigger(event=event, after_s=after):
             return f'{event} is done' + (f' and {_number(after)} have passed' if after else '')
+        case BehaviorDoneTrigger(who=who, behavior=kind):
+            return f'the stated time of {who} to {kind.value.replace("_", " ")} is over'
         case BatteryTrigger(uav=uav, value=value):
             return f'the battery of {uav} falls below {_number(value)}'
         case MissionDoneTrigger(uav=uav):

@@ -11,7 +11,7 @@ from pydantic import Field, StringConstraints, model_validator
 from aurora_core.document import omitted
 from aurora_core.spec.parameter import Bound, Element, Parameter, Span
 from aurora_core.spec.reference import Id, PlaceRef, is_place
-from aurora_core.spec.vocabulary import LaneSide
+from aurora_core.spec.vocabulary import MOVING, STANDING, BehaviorKind, LaneSide
 
 
 class DistanceTrigger(Element):
@@ -87,6 +87,20 @@ class EventDoneTrigger(Element):
     after_s: Parameter | None = None
 
 
+class BehaviorDoneTrigger(Element):
+    """The stated time of what an agent does is over: it has stood, or moved, for as long."""
+
+    on: Literal['behavior_done']
+    who: Id
+    behavior: BehaviorKind
+
+    @model_validator(mode='after')
+    def _lasts(self) -> Self:
+        if self.behavior not in STANDING | MOVING:
+            raise ValueError(f'nobody sees from when on somebody does this: {self.behavior}')
+        return self
+
+
 class MissionDoneTrigger(Element):
     """A UAV has finished its missions."""
 
@@ -112,6 +126,7 @@ Trigger = Annotated[
     | MessageTrigger
     | SpeedTrigger
     | EventDoneTrigger
+    | BehaviorDoneTrigger
     | MissionDoneTrigger
     | BatteryTrigger,
     Field(discriminator='on'),
@@ -305,7 +320,7 @@ def actor_of(event: Event) -> str | None:
         case DistanceTrigger():
             told = event.action.receiver if isinstance(event.action, SendMessage) else None
             return trigger.b if trigger.a == told else trigger.a
-        case SpeedTrigger() | ArrivalTrigger():
+        case SpeedTrigger() | ArrivalTrigger() | BehaviorDoneTrigger():
             return trigger.who
         case HeadwayTrigger():
             return trigger.a

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from aurora_core.spec.events import (
     ArrivalTrigger,
+    BehaviorDoneTrigger,
     DistanceTrigger,
     Event,
     EventDoneTrigger,
@@ -60,10 +61,7 @@ def counts_from_capture(spec: ScenarioSpec, event: Event) -> bool:
     """
     if not isinstance(event.action, UavAction):
         return False
-    if not isinstance(
-        event.trigger,
-        DistanceTrigger | HeadwayTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger,
-    ):
+    if not isinstance(event.trigger, _OF_STATES):
         return False
     first = next((m for m in spec.missions if m.uav == event.action.uav), None)
     return first is not None and begun_by(spec, first) is None
@@ -136,6 +134,15 @@ def keeps_altitude(spec: ScenarioSpec, mission: UavMission) -> bool:
     """Tell whether a UAV that stays where it is stays as high, too: no altitude is stated."""
     is_open = mission.altitude_m.provenance is not Provenance.EXPLICIT
     return is_open and stays_where_it_is(spec, mission)
+
+
+def begins_as_high(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a mission without a place and a stated altitude begins as high as its UAV is.
+
+    "Hovers at 120 m, then flies a line of 400 m": it flies that at 120 m.
+    """
+    is_open = mission.altitude_m.provenance is not Provenance.EXPLICIT
+    return is_open and (stays_where_it_is(spec, mission) or begins_where_it_is(spec, mission))
 
 
 def left_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:
@@ -219,10 +226,7 @@ def awaits_reports(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
         for e in spec.events
         if isinstance(e.action, SendMessage)
         and e.action.sender == uav
-        and isinstance(
-            e.trigger,
-            DistanceTrigger | HeadwayTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger,
-        )
+        and isinstance(e.trigger, (*_OF_STATES, BehaviorDoneTrigger))
         and not (e.trigger.on == 'distance_above' and _gets_far_itself(spec, e, last))
     )
 

@@ -65,3 +65,17 @@ def test_after_a_tracking_it_begins_where_the_target_is_by_then(
     _, line = grounded.uavs[0].missions
     x, y, _ = line.waypoints[0]
     assert 100.0 < hypot(x - van.x_m, y - van.y_m) < 200.0
+
+
+def test_it_is_flown_as_high_as_its_uav_is_where_no_altitude_is_stated(
+    read_prompt: Read, ground: Ground
+) -> None:
+    """Else it would sink by 70 m first, and be captured late."""
+    spec = read_prompt(
+        'A drone hovers over Harbor Market at 100 m for 10 s, then flies a line of 300 m.',
+        'downtown',
+    )
+    hover, line = ground(spec, 'downtown').uavs[0].missions
+    assert hover.hover_point is not None
+    assert line.waypoints[0] == pytest.approx(hover.hover_point)
+    assert {z for _, _, z in line.waypoints} == {100.0}

@@ -239,6 +239,14 @@ MISSIONS = (
     Row(id='m2.order', make=two_missions, margin=0.0),
     # Its way, 39.25 m after the first step, takes so long at 8 m/s, which does not count.
     Row(id='m2.capture', make=two_missions, margin=30.0 - (39 * 0.05 - 39.25 / 8.0), within=0.06),
+    # 80 m higher, by 0.2 m each tick: the climb at 3 m/s on average does not count either.
+    Row(
+        id='m2.capture',
+        make=lambda: two_missions(110.0, begins=500),
+        margin=30.0 - ((79.8 - 5.0) / 0.2 * 0.05 - 79.8 / 3.0),
+        within=0.11,
+        what='higher',
+    ),
     Row(id='m1.completed', make=two_missions, margin=FIRST_TICKS * 0.05 - 19.5, within=0.06),
     Row(id='m2.completed', make=two_missions, margin=SECOND_TICKS * 0.05 - 19.5, within=0.06),
     Row(id='m2.order', make=lambda: two_missions(begins=1000), reason=EMPTY),

@@ -13,6 +13,7 @@ from aurora_core.errors import VerificationError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, at_tick
+from aurora_core.judging.mission import changes_height, climb_mps, descent_mps
 from aurora_core.judging.quantity import OfMission
 from aurora_core.judging.until import not_yet
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
@@ -27,12 +28,17 @@ class CaptureTime(OfMission):
     Attributes:
         way_mps: The time that the way to the first point takes at this speed does not count. None:
             the threshold has it, as for a first mission, whose way is planned.
+        climb_mps: Nor does the time that the height takes at this rate, where that is longer.
+            None: it is as high as before.
+        descent_mps: The same on the way down.
     """
 
     name = QuantityName.CAPTURE_TIME
     kind: Literal['capture_time'] = 'capture_time'
     window: Window = Window.MOMENT
     way_mps: FiniteFloat | None = omitted(None)
+    climb_mps: FiniteFloat | None = omitted(None)
+    descent_mps: FiniteFloat | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time; a target that is gone before excuses, the end of the run does not."""
@@ -69,15 +75,21 @@ class CaptureTime(OfMission):
         mission, speed = self.mission, self.way_mps
         if speed is None:
             return 0.0
-        x, y = context.view.reference(mission.uav)[tick, :2].tolist()
+        x, y, z = context.view.reference(mission.uav)[tick].tolist()
+        height_s = self._height_s(mission.altitude_m - z)
         goal = mission.point_m
         if goal is None:
             if mission.target is None or not context.view.has(mission.target):
-                return 0.0
+                return height_s
             there = context.view.reference(mission.target)[tick, :2].tolist()
             goal = (there[0], there[1])
         way_m = norm2(goal[0] - x, goal[1] - y) - mission.standoff_m
-        return max(0.0, way_m) / speed
+        return max(way_m / speed, height_s)
+
+    def _height_s(self, rise_m: float) -> float:
+        """Return how long a UAV climbs or sinks by so much, at least 0 s."""
+        rate = self.climb_mps if rise_m > 0.0 else self.descent_mps
+        return 0.0 if rate is None else abs(rise_m) / rate
 
 
 def implied(
@@ -87,17 +99,28 @@ def implied(
     allowed_s, way_mps = inputs.tolerances.capture_s, facts.transit_speed_mps
     after = f'and its way at {number(way_mps)} m/s after the phase before it'
     planned = mission.index == 0
+    rates: tuple[float | None, float | None] = None, None
     if planned:
         # A later mission begins wherever the one before it ended: that target has moved since.
         allowed_s += facts.transit_m / way_mps
         after = 'after its ascent'
+    elif changes_height(inputs, mission):
+        rates = up_mps, down_mps = climb_mps(inputs), descent_mps(inputs)
+        after = (
+            f'and its way at {number(way_mps)} m/s, {number(up_mps)} m/s up or '
+            f'{number(down_mps)} m/s down after the phase before it'
+        )
     return condition(
         id=f'{mission.mission}.capture',
         sentence=f'{mission.uav} captures {mission.mission} within {number(allowed_s)} s {after}',
         of=(mission.uav,),
         target=Target(op='<=', threshold=allowed_s, unit='s'),
         arguments=CaptureTime(
-            **inputs.common, mission=mission, way_mps=None if planned else way_mps
+            **inputs.common,
+            mission=mission,
+            way_mps=None if planned else way_mps,
+            climb_mps=rates[0],
+            descent_mps=rates[1],
         ),
         source=source,
         every_sample=False,

@@ -46,6 +46,7 @@ _TRIGGERS: dict[str, tuple[str, str, str, str]] = {
     'speed_below': ('who', '', 'value_mps', 'trigger_speed'),
     'speed_above': ('who', '', 'value_mps', 'trigger_speed'),
     'event_done': ('', 'event', 'after_s', 'trigger_time'),
+    'behavior_done': ('who', '', '', 'delay'),
     'mission_done': ('uav', '', '', 'delay'),
     'battery_below': ('uav', '', 'value', 'condition_ratio'),
 }
@@ -97,6 +98,8 @@ def _trigger(name: str, given: TriggerReading, parts: Parts) -> Trigger:
         parts.actor(given.subject, f'{where}.subject')
     _put(fields, subject, parts.ref_or_none(given.subject), f'{where}.subject')
     _put(fields, other, parts.ref_or_none(given.other), f'{where}.other')
+    lasts = 'behavior' if given.on == 'behavior_done' else ''
+    _put(fields, lasts, given.behavior, f'{where}.behavior')
     known = parts.number(parameter, given.value, f'{where}.value')
     if known is None and given.on in _OPEN:
         known = default(parameter)

@@ -154,11 +154,13 @@ class TriggerReading(Document):
         'speed_below',
         'speed_above',
         'event_done',
+        'behavior_done',
         'mission_done',
         'battery_below',
     ]
     subject: Name | None = None
     other: Reference | None = None
+    behavior: BehaviorKind | None = None
     value: Number | None = None
 
 

@@ -19,6 +19,7 @@ from aurora_core.spec.scenario import (
     AltitudeTrigger,
     ArrivalTrigger,
     BatteryTrigger,
+    BehaviorDoneTrigger,
     DistanceTrigger,
     Event,
     HeadwayTrigger,
@@ -237,6 +238,11 @@ def _trigger_words(event: Event | None, record: EventRecord) -> tuple[str, str]:
         return f'{trigger.at_s.value:g} s reached ({record.subject})', ''
     if isinstance(trigger, BatteryTrigger):
         return f'{trigger.uav} has less than {100.0 * trigger.value.value:g} % left', trigger.uav
+    if isinstance(trigger, BehaviorDoneTrigger):
+        return (
+            f'the stated time of {trigger.who} to {_plain(trigger.behavior)} is over',
+            trigger.who,
+        )
     if isinstance(trigger, AltitudeTrigger):
         return f'{trigger.uav} reaches {trigger.value_m.value:g} m', trigger.uav
     if isinstance(trigger, VisibilityTrigger):
