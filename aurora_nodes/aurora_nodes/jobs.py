@@ -29,6 +29,7 @@ class Job:
         stage: Stage that is going on, for feedback.
         fraction: Of the whole run, 0 to 1.
         sim_time_s: Simulated time.
+        processes: That execute candidates of repair; None: as the configuration says.
     """
 
     run_id: str
@@ -44,6 +45,7 @@ class Job:
     stage: str = ''
     fraction: float = 0.0
     sim_time_s: float = 0.0
+    processes: int | None = None
 
     @property
     def run_dir(self) -> Path:

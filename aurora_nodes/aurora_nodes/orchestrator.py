@@ -24,6 +24,7 @@ from aurora_msgs.action import RunScenario
 from aurora_msgs.srv import RunPrompt
 from aurora_nodes.answers import PublishedVerdicts
 from aurora_nodes.attendance import EVERYBODY, Attendance, AttendanceLimits
+from aurora_nodes.candidates import candidates
 from aurora_nodes.jobs import Job, JobQueue
 from aurora_nodes.prompts import received_prompt
 from aurora_nodes.ros_stages import CALLS, RosStages, StageLimits
@@ -32,7 +33,7 @@ from aurora_nodes.run_work import new_job, worker
 from aurora_nodes.supervision import Supervision, supervision_folder
 from aurora_ros import interfaces as on
 from aurora_ros.call import Caller
-from aurora_ros.conversions.options import run_request, runs_directory
+from aurora_ros.conversions.options import repair_processes, run_request, runs_directory
 from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.main import Spinning, run_node
 from aurora_ros.node import AuroraNode
@@ -53,6 +54,7 @@ class OrchestratorSettings(StageLimits, AttendanceLimits):
     feedback_period_s: float
     assemble_s: float
     restart_s: float
+    dask: str
 
     def __post_init__(self) -> None:
         StageLimits.__post_init__(self)
@@ -109,6 +111,7 @@ class OrchestratorNode(AuroraNode):
             self._known,
             self._stopping.is_set,
             supervision.note,
+            lambda processes: candidates(processes, settings.dask),
         )
 
         def busy_work(job: Job) -> None:
@@ -137,8 +140,9 @@ class OrchestratorNode(AuroraNode):
 
     def _submit(self, request: Any) -> Job:
         prompt = received_prompt(request.prompt, request.prompt_bytes)
-        asked = runs_directory(request.options_json)
-        job = new_job(run_request(prompt, request.options_json), asked or self._root)
+        options = request.options_json
+        root = runs_directory(options) or self._root
+        job = new_job(run_request(prompt, options), root, repair_processes(options))
         self._queue.submit(job)
         return job
 

@@ -97,7 +97,7 @@ class RosStages:
         self._run_id = run_id
         self._cancelled = cancelled
         self._began = False
-        self._trace_sha256 = ''
+        self._trace_sha256: dict[Path, str] = {}
 
     def close(self) -> None:
         """End the run, if it ever began: participants may go and be restarted."""
@@ -187,11 +187,14 @@ class RosStages:
         except ValidationError as err:
             raise ExecutionError(f'the executor answered with {fields}: {err}') from err
         hold(on.EXECUTE, bag=(bag_directory.absolute(), execution.bag))
-        self._trace_sha256 = execution.trace_sha256
+        self._trace_sha256[bag_directory] = execution.trace_sha256
         return execution
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
-        """Let the monitor judge the bag; whoever took part must still be there at the end."""
+        """Let the monitor judge the bag; whoever took part must still be there at the end.
+
+        A bag that the graph did not record has the trace that the monitor finds in it.
+        """
         response = self._caller.service(
             on.VERIFY,
             VerifyTrace.Request(
@@ -207,7 +210,10 @@ class RosStages:
             run=(self._run_id, answer.run_id),
             iteration=(agsg.iteration, answer.iteration),
             source=(VerdictMessage.BAG, answer.source),
-            trace_hash=(self._trace_sha256, answer.trace_sha256),
+            trace_hash=(
+                self._trace_sha256.setdefault(bag, answer.trace_sha256),
+                answer.trace_sha256,
+            ),
             set_of_conditions=([c.id for c in agsg.conditions], [r.id for r in verdict.results]),
             status=(verdict.status.value, answer.status),
         )
@@ -236,7 +242,7 @@ class RosStages:
                     run_id=self._run_id,
                     iteration=agsg.iteration,
                     end_s=0.0,
-                    trace_sha256=self._trace_sha256,
+                    trace_sha256=self._trace_sha256[bag],
                 ),
                 bag_uri=str(bag.absolute()),
                 past_json=past_json(past),

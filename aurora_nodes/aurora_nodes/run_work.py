@@ -7,11 +7,13 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Protocol
 
 from aurora_core.errors import AuroraError
+from aurora_core.pipeline.beside import Beside
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest, Stages
@@ -31,11 +33,14 @@ class WallClock:
         return time.monotonic()
 
 
-def new_job(request: RunRequest, root: Path) -> Job:
+def new_job(request: RunRequest, root: Path, processes: int | None = None) -> Job:
     """Return a job with an id of its own."""
     run_id = new_run_id(datetime.now(UTC), os.urandom(3))
     return Job(
-        run_id=run_id, request=request.model_copy(update={'engine': 'ros'}), root=root.absolute()
+        run_id=run_id,
+        request=request.model_copy(update={'engine': 'ros'}),
+        root=root.absolute(),
+        processes=processes,
     )
 
 
@@ -51,6 +56,7 @@ def worker(
     known: Knowledge,
     stopping: Callable[[], bool],
     broke: Callable[[AuroraError], None],
+    beside: Callable[[int | None], AbstractContextManager[Beside | None]],
 ) -> Callable[[Job], None]:
     """Return the function that works off jobs.
 
@@ -59,6 +65,7 @@ def worker(
         known: What is installed here.
         stopping: Whether the node is being shut down.
         broke: Told the error of a run that ended with one.
+        beside: Gives who executes candidates of repair, in so many processes.
     """
 
     versions = product_versions()
@@ -76,16 +83,18 @@ def worker(
 
         stages = stages_of(job.run_id, cancelled)
         try:
-            report = run(
-                job.request,
-                stages,
-                known,
-                RunFolder(job.root, job.run_id),
-                RunControl(progress=progress, cancelled=cancelled),
-                WallClock(),
-                versions=versions,
-                manifest=manifest_facts(datetime.now(UTC), this_process(), versions),
-            )
+            with beside(job.processes) as others:
+                report = run(
+                    job.request,
+                    stages,
+                    known,
+                    RunFolder(job.root, job.run_id),
+                    RunControl(progress=progress, cancelled=cancelled),
+                    WallClock(),
+                    versions=versions,
+                    manifest=manifest_facts(datetime.now(UTC), this_process(), versions),
+                    beside=others,
+                )
             job.status = report.status.value
             job.report_json = json_text(report)
             if report.error is not None:

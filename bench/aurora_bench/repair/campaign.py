@@ -52,7 +52,7 @@ class Episode(Document):
         times: The same, in first realisations (from the request to its verdict).
         proposing_s: Wall time of each proposal, localization and replay in it.
         first_s: Wall time of the first realisation.
-        why: What repair said last, where the run stays violated.
+        why: What repair said last, where the run stays violated; or why it was refused.
     """
 
     key: str
@@ -227,8 +227,12 @@ def _told(
         times=spent / (when.first - when.begin) if when.first else 0.0,
         proposing_s=tuple(round(asked.seconds, 4) for asked in stages.asked),
         first_s=round(when.first - when.begin, 4) if when.first else 0.0,
-        why='' if holds or not report.repairs else report.repairs[-1].reason,
+        why=report.summary if refused else _last_said(report, holds=holds),
     )
+
+
+def _last_said(report: RunReport, *, holds: bool) -> str:
+    return '' if holds or not report.repairs else report.repairs[-1].reason
 
 
 def _changed(folder: RunFolder, stages: PinnedStages) -> Iterator[str]:

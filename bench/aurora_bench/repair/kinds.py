@@ -62,6 +62,7 @@ class Kind:
 _FAR = Span(low=120.0, high=195.0)
 _CLOSE = Span(low=15.0, high=30.0)
 _LOW_FLIGHT = Span(low=15.0, high=35.0)
+_NEAR_GROUND = Span(low=15.0, high=30.0)
 _OUT_OF_REACH = Span(low=15.0, high=118.0, above='reach')
 _HALF = Span(low=0.45, high=0.55, of='reach')
 _PAIR: Words = {'who': SMALL, 'whom': LARGE}
@@ -85,15 +86,15 @@ KINDS: tuple[Kind, ...] = (
         good=_CLOSE,
     ),
     Kind(
-        name='start gap too small to keep',
+        name='standoff out of reach of a trigger',
         prompt=(
-            'A {who} drives behind a {whom}. The distance between the {who} and the {whom} is '
-            'always more than {least} meters.'
+            'A drone tracks a {vehicle}. When the drone comes within {reach} meters of the '
+            '{vehicle}, the drone alerts the ego car.'
         ),
-        words={**_PAIR, 'least': (15, 25)},
-        values={GAP: Span(low=1.02, high=1.1, of='least')},
-        cause=GAP,
-        good=Span(low=5.0, high=6.0, of='least'),
+        words={**_ONE, 'reach': (35, 55)},
+        values={STANDOFF: Span(low=20.0, high=120.0, above='reach'), ALTITUDE: _NEAR_GROUND},
+        cause=STANDOFF,
+        good=Span(low=0.1, high=0.3, of='reach'),
     ),
     Kind(
         name='flight too slow for its time',

@@ -121,6 +121,7 @@ def run_request(
     control: RunControl,
     tell: Callable[[str], None] = lambda _: None,
     beside: Beside | None = None,
+    jobs: int | None = None,
 ) -> Run:
     """Run a request with its engine; without the page, unless the graph made it.
 
@@ -130,6 +131,7 @@ def run_request(
         control: Progress and cancel.
         tell: Takes what the user should know meanwhile.
         beside: Who executes candidates of repair beside this process, in the local engine.
+        jobs: Processes that do so for the graph; None: as its configuration says.
 
     Raises:
         AuroraError: The run folder cannot be written, or the graph cannot be reached.
@@ -137,7 +139,7 @@ def run_request(
     if request.engine == 'ros':
         from aurora_cli.ros_client import run_over_ros
 
-        report, path = run_over_ros(request, root, control, tell)
+        report, path = run_over_ros(request, root, control, tell, jobs)
         return Run(report=report, folder=path)
     return run_stages(request, LocalStages(installed()), root, control, beside)
 

@@ -110,10 +110,10 @@ class Pool(Generic[T, R]):
         return not self._waiting and all(w.task is None for w in self._workers)
 
     @property
-    def free(self) -> int:
-        """How many tasks would be begun at once."""
-        ready = sum(w.is_ready and w.task is None for w in self._workers)
-        return max(0, ready - len(self._waiting))
+    def room(self) -> int:
+        """How many tasks would wait for no other one."""
+        busy = sum(w.task is not None for w in self._workers)
+        return max(0, self._jobs - busy - len(self._waiting))
 
     def warm(self) -> None:
         """Start all workers, before there are tasks."""

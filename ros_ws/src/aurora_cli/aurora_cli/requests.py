@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
 from pydantic import ValidationError
 
-from aurora_cli.beside.chosen import HERE, Elsewhere
+from aurora_cli.beside.chosen import HERE, Elsewhere, chosen
 from aurora_cli.files import full_path
 from aurora_cli.output import UsageProblem
 from aurora_core.errors import ConfigError, PromptError
@@ -18,6 +19,7 @@ from aurora_core.execution.faults import Fault
 from aurora_core.knowledge.map_folders import list_maps
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.parsing.text import check_prompt_text
+from aurora_core.pipeline.beside import Beside
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.model_name import RECORDED, without_secrets
 from aurora_core.report.facts import RunFacts
@@ -45,6 +47,11 @@ class RunOptions:
     autopilot: str = ''
 
 
+def beside_of(options: RunOptions) -> AbstractContextManager[Beside | None]:
+    """Give who executes candidates beside this process; a graph has processes of its own."""
+    return nullcontext() if options.engine == 'ros' else chosen(options.elsewhere)
+
+
 def checked(options: RunOptions) -> RunRequest:
     """Return the request without its prompt.
 
@@ -59,8 +66,10 @@ def checked(options: RunOptions) -> RunRequest:
         raise UsageProblem(f'--transcripts: there is no folder {options.transcripts}')
     if options.engine not in ('local', 'ros'):
         raise UsageProblem(f'--engine is local or ros, found {options.engine}')
-    if options.engine == 'ros' and options.elsewhere != HERE:
-        raise UsageProblem('--jobs and --dask are for candidates of the local engine')
+    if options.engine == 'ros' and options.elsewhere.dask is not None:
+        raise UsageProblem(
+            '--dask is for the local engine: that of a graph is a parameter of its orchestrator'
+        )
     if options.autopilot and options.engine != 'local':
         raise UsageProblem('--autopilot is for the local engine: leave --engine out')
     if options.autopilot and options.elsewhere != HERE:

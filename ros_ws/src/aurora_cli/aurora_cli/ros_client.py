@@ -59,7 +59,11 @@ _DOWN = ('ros2', 'run', 'aurora_bringup', 'down')
 
 
 def run_over_ros(
-    request: RunRequest, root: Path, control: RunControl, tell: Callable[[str], None]
+    request: RunRequest,
+    root: Path,
+    control: RunControl,
+    tell: Callable[[str], None],
+    jobs: int | None = None,
 ) -> tuple[RunReport, Path]:
     """Run a prompt on the graph and return its report and run folder.
 
@@ -70,6 +74,7 @@ def run_over_ros(
         root: Folder of the run folders (absolute; the graph runs on this machine).
         control: Progress and cancel.
         tell: Takes what the user should know meanwhile.
+        jobs: Processes for candidates of repair; None: as the configuration of the graph says.
 
     Raises:
         ExecutionError: The graph cannot be reached or started, or it gave no report.
@@ -78,18 +83,18 @@ def run_over_ros(
     with _client_node() as node:
         caller = _caller(node)
         if _is_served(caller, _DISCOVERY_S):
-            return _run(caller, request, root, control)
+            return _run(caller, request, root, control, jobs)
         why = not_isolated(request)
         if why:
             tell(f'no graph is running, starting one that others on this machine reach: {why}')
             with _own_graph(caller, control.cancelled):
-                return _run(caller, request, root, control)
+                return _run(caller, request, root, control, jobs)
     tell('no graph is running, starting one in a network of its own')
-    return run_isolated(request, root, control, tell)
+    return run_isolated(request, root, control, tell, jobs)
 
 
 def run_on_own_graph(
-    request: RunRequest, root: Path, control: RunControl
+    request: RunRequest, root: Path, control: RunControl, jobs: int | None = None
 ) -> tuple[RunReport, Path]:
     """Run a prompt on a graph that is started for it, in the network that this process is in.
 
@@ -100,7 +105,7 @@ def run_on_own_graph(
     with _client_node() as node:
         caller = _caller(node)
         with _own_graph(caller, control.cancelled):
-            return _run(caller, request, root, control)
+            return _run(caller, request, root, control, jobs)
 
 
 def _caller(node: Node) -> Caller:
@@ -110,14 +115,14 @@ def _caller(node: Node) -> Caller:
 
 
 def _run(
-    caller: Caller, request: RunRequest, root: Path, control: RunControl
+    caller: Caller, request: RunRequest, root: Path, control: RunControl, jobs: int | None
 ) -> tuple[RunReport, Path]:
     result = caller.action(
         on.RUN,
         RunScenario.Goal(
             prompt=request.prompt,
             prompt_bytes=len(request.prompt.encode('utf-8')),
-            options_json=_options(request, root),
+            options_json=_options(request, root, jobs),
         ),
         _RUN_S,
         on_feedback=lambda feedback: control.progress(
@@ -130,9 +135,9 @@ def _run(
     return _report(result), Path(result.run_dir)
 
 
-def _options(request: RunRequest, root: Path) -> str:
-    """Return the options with the folder for the run folder, which is no part of a request."""
-    return json.dumps({**json.loads(options_json(request)), 'out': str(root)})
+def _options(request: RunRequest, root: Path, jobs: int | None) -> str:
+    """Return the options with the folder of runs and `--jobs`, which are no part of a request."""
+    return json.dumps({**json.loads(options_json(request)), 'out': str(root), 'jobs': jobs})
 
 
 def _report(result: Any) -> RunReport:

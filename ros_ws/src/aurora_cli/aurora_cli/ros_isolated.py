@@ -44,7 +44,11 @@ def not_isolated(request: RunRequest) -> str:
 
 
 def run_isolated(
-    request: RunRequest, root: Path, control: RunControl, tell: Callable[[str], None]
+    request: RunRequest,
+    root: Path,
+    control: RunControl,
+    tell: Callable[[str], None],
+    jobs: int | None = None,
 ) -> tuple[RunReport, Path]:
     """Start a graph in a network of its own, run a request on it, and stop it.
 
@@ -53,6 +57,7 @@ def run_isolated(
         root: Folder of the run folders, absolute.
         control: Progress and cancel.
         tell: Takes what the user should know meanwhile.
+        jobs: Processes for candidates of repair; None: as the configuration says.
 
     Raises:
         ExecutionError: The graph cannot be started, or it gave no report.
@@ -72,7 +77,7 @@ def run_isolated(
     )
     listener.start()
     try:
-        asked = {'request': request.model_dump(mode='json'), 'root': str(root)}
+        asked = {'request': request.model_dump(mode='json'), 'root': str(root), 'jobs': jobs}
         process.stdin.write(json.dumps(asked).encode() + b'\n')
         process.stdin.flush()
         told = False
@@ -161,7 +166,8 @@ def main() -> int:
         from aurora_cli.ros_client import run_on_own_graph
 
         request = RunRequest.model_validate(asked['request'])
-        report, folder = run_on_own_graph(request, Path(asked['root']), control)
+        root, jobs = Path(asked['root']), asked['jobs']
+        report, folder = run_on_own_graph(request, root, control, jobs)
         answer({'report': report.model_dump(mode='json'), 'folder': str(folder)})
     except KeyboardInterrupt:
         answer({'interrupted': True})

@@ -111,8 +111,9 @@ def test_a_worker_with_another_configuration_executes_nothing() -> None:
         Executing()(candidate)
 
 
-def test_the_graph_has_no_processes_beside_it(tmp_path: Path) -> None:
-    process = started(tmp_path, '--jobs', '2', '--engine', 'ros')
+def test_no_message_names_a_scheduler_to_a_graph(tmp_path: Path) -> None:
+    """Whoever may start runs there may not make it run code of theirs."""
+    process = started(tmp_path, '--dask', 'tcp://127.0.0.1:1', '--engine', 'ros')
     process.communicate(timeout=60)
     assert process.returncode == 64
     assert not (tmp_path / 'runs').exists()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Repair in the graph: cancelled in the middle, and the node alone by its service."""
+"""Repair in the graph: in the local engine, confirmed, cancelled, and the node by its service."""
 
 from __future__ import annotations
 
@@ -28,6 +28,7 @@ PROMPT = (
     'A scenario of 40 seconds. A drone tracks a car. When the car is faster than 24 m/s, the '
     'drone alerts the ego car.'
 )
+SHORT = PROMPT.replace('40', '15')
 LIMIT_S = 300.0
 
 
@@ -47,6 +48,7 @@ def test_a_cancel_in_the_middle_of_a_repair_leaves_the_best_run_and_the_service_
         LIMIT_S,
         on_feedback=heard.append,
         cancelled=in_the_third_realisation,
+        cancel_limit_s=LIMIT_S,  # the page is written as well
     )
     assert result.status == 'cancelled'
     folder = Path(result.run_dir)
@@ -56,6 +58,7 @@ def test_a_cancel_in_the_middle_of_a_repair_leaves_the_best_run_and_the_service_
     report = json.loads((folder / 'report.json').read_text())
     assert [bag['bag'] for bag in report['bags']] == ['bag.0', 'bag.1']
     assert report['trace']['bag'] in ('bag.0', 'bag.1')
+    assert [repair['engine'] for repair in report['repairs'] if repair['bag']] == ['local']
 
     # Graph, verdict and bag in, edits out: whoever has a recording may ask the node.
     agsg = agsg_from_json((folder / 'agsg.0.json').read_bytes())
@@ -80,3 +83,21 @@ def test_a_cancel_in_the_middle_of_a_repair_leaves_the_best_run_and_the_service_
     assert proposal.step is Step.GROUNDING
     assert proposal.plan.avoided
     assert proposal.implicated[0].field == 'grounding/anchor'
+
+
+def test_the_best_candidate_is_executed_in_the_graph_with_the_same_trace(
+    graph: RunningGraph,
+) -> None:
+    result = graph.play.send_goal(
+        on.RUN,
+        RunScenario.Goal(prompt=SHORT, options_json='{"repair": 2, "jobs": 2}'),
+        LIMIT_S,
+    )
+    report = json.loads(result.report_json)
+    *candidates, again = [repair for repair in report['repairs'] if repair['bag']]
+    assert [repair.get('engine', '') for repair in candidates] == ['local', 'local']
+    assert (again['bag'], again.get('engine', '')) == ('bag.3', '')
+    assert report['trace']['bag'] == 'bag.3'
+    traces = [bag['trace_sha256'] for bag in report['bags']]
+    assert traces[again['confirms']] == traces[3]
+    assert 'gave the same trace as the local one' in report['summary']

@@ -29,8 +29,12 @@ HERE = Elsewhere()
 
 
 @contextmanager
-def chosen(asked: Elsewhere) -> Iterator[Beside | None]:
+def chosen(asked: Elsewhere, *, here: bool = True) -> Iterator[Beside | None]:
     """Give who executes candidates beside the runs of the context; None: nobody.
+
+    Args:
+        asked: Processes or a scheduler.
+        here: Whether this process executes candidates itself where there is no other one.
 
     Raises:
         AuroraError: The scheduler cannot be used, or the configuration cannot be read.
@@ -42,7 +46,7 @@ def chosen(asked: Elsewhere) -> Iterator[Beside | None]:
 
         with closing(DaskWorkers(asked.dask, jobs, settings.limit_s)) as workers:
             yield workers
-    elif jobs > 1:
+    elif jobs > 1 or not here:
         from aurora_cli.beside.processes import LocalProcesses
 
         with closing(LocalProcesses(jobs, settings.limit_s)) as processes:

@@ -31,10 +31,10 @@ class LocalProcesses:
         self._pool.warm()
 
     def begin(self, candidate: Candidate) -> _Given | None:
-        """Give a candidate to a process that is ready; one that has died gets a successor."""
+        """Give a candidate to a process that has none; one that has died gets a successor."""
         self._look(0.0)
         self._pool.warm()
-        return _Given(self, self._pool.give(candidate)) if self._pool.free else None
+        return _Given(self, self._pool.give(candidate)) if self._pool.room else None
 
     def wait(self, number: int, seconds: float) -> Recorded | None:
         """Return what came of a task, None when it is not there after so long."""

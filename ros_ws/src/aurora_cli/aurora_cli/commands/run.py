@@ -7,7 +7,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from aurora_cli.answers import Run, new_folder, run_request
-from aurora_cli.beside.chosen import chosen
 from aurora_cli.files import full_path
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.output import (
@@ -20,7 +19,7 @@ from aurora_cli.output import (
 )
 from aurora_cli.progress import RunProgress
 from aurora_cli.prompt_input import prompt_bytes
-from aurora_cli.requests import RunOptions, checked, unreadable, with_prompt
+from aurora_cli.requests import RunOptions, beside_of, checked, unreadable, with_prompt
 from aurora_core.errors import AuroraError, PromptError
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.build import build_report
@@ -58,11 +57,12 @@ def run_command(
         else:
             with (
                 Interrupts() as interrupts,
-                chosen(options.elsewhere) as beside,
+                beside_of(options) as beside,
                 RunProgress(quiet=quiet) as progress,
             ):
                 control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
-                done = run_request(ready, root, control, _say, beside)
+                jobs = options.elsewhere.jobs
+                done = run_request(ready, root, control, _say, beside, jobs)
     if as_json:
         print_json(done.report)
         say(f'aurora: run folder {done.folder}')

@@ -9,13 +9,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from aurora_cli.answers import Run, run_request
-from aurora_cli.beside.chosen import chosen
 from aurora_cli.files import full_path
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
 from aurora_cli.progress import RunProgress
 from aurora_cli.prompt_input import prompt_bytes
-from aurora_cli.requests import RunOptions, checked, with_prompt
+from aurora_cli.requests import RunOptions, beside_of, checked, with_prompt
 from aurora_core.errors import PromptError
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.run_report import ConditionReport
@@ -84,15 +83,15 @@ def worst_exit_code(statuses: Sequence[Status], *, all_run: bool) -> int:
 
 def _run_all(request: RunRequest, count: int, options: RunOptions, *, quiet: bool) -> list[Run]:
     done: list[Run] = []
-    root = full_path(options.out)
-    with quiet_stdout(), Interrupts() as interrupts, chosen(options.elsewhere) as beside:
+    root, jobs = full_path(options.out), options.elsewhere.jobs
+    with quiet_stdout(), Interrupts() as interrupts, beside_of(options) as beside:
         for run_id in close_unfinished(root):
             say(f'aurora: closed the unfinished run {run_id} as error')
         for seed in range(request.seed, request.seed + count):
             one = request.model_copy(update={'seed': seed})
             with RunProgress(stages=False, quiet=quiet) as progress:
                 control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
-                run = run_request(one, root, control, lambda text: say(f'aurora: {text}'), beside)
+                run = run_request(one, root, control, _say, beside, jobs)
             done.append(run)
             if not quiet:
                 said = run.status.value.replace('_', ' ').upper()
@@ -100,6 +99,10 @@ def _run_all(request: RunRequest, count: int, options: RunOptions, *, quiet: boo
             if interrupts.cancelled():
                 break
     return done
+
+
+def _say(text: str) -> None:
+    say(f'aurora: {text}')
 
 
 def _worst(run: Run) -> ConditionReport | None:

@@ -20,7 +20,7 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan
 from aurora_core.pipeline.beside import Beside, Candidate, Pending
-from aurora_core.pipeline.repairing import Realisation, realised, why_not
+from aurora_core.pipeline.repairing import Realisation, best_of, realised, why_not
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 
 _LOG = logging.getLogger(__name__)
@@ -122,7 +122,7 @@ class Ahead:
             given: The candidate: what was proposed, and what came of it.
             most: Groundings that may be asked for.
         """
-        best = max(made, key=lambda r: r.attempt.rank)
+        best = best_of(made, self._request.engine)
         proposal, grounding = given
         tried, iteration = list(past), len(made)
         # Of no avail: what does not hold is as it was.

@@ -31,6 +31,7 @@ from aurora_core.spec.parameter import Provenance
 
 _ANCHOR = 'grounding/anchor'
 _SHOWN = 5
+_DIGITS = 12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,18 +43,25 @@ class Realisation:
         grounding: What it was executed from.
         execution: What was left behind.
         verdict: Of its trace.
+        engine: Who executed it.
     """
 
     attempt: Attempt
     grounding: GroundingOutcome
     execution: ExecutionFacts
     verdict: Verdict
+    engine: str
 
     @property
     def graph(self) -> Agsg:
         """The graph that was executed."""
         assert self.grounding.agsg is not None  # it was executed
         return self.grounding.agsg
+
+
+def best_of(made: Sequence[Realisation], engine: str) -> Realisation:
+    """Return the best realisation; among equals one of the run's engine, then the earliest."""
+    return max(made, key=lambda r: (r.attempt.rank, r.engine == engine))
 
 
 def realised(
@@ -198,6 +206,41 @@ def repair_report(
         outcome=attempt.outcome.value,
         bag=f'bag.{attempt.iteration}' if attempt.simulated else None,
         implicated=proposal.implicated[:_SHOWN],
+    )
+
+
+def confirmation(candidate: Realisation, done: Realisation) -> RepairReport:
+    """Return how it is told that the engine of the run executed a candidate again.
+
+    Args:
+        candidate: As another engine executed it.
+        done: The same graph in the engine of the run.
+    """
+    name, again = candidate.execution.bag, done.execution.trace_sha256
+    recorded = candidate.execution.trace_sha256
+    is_same = again == recorded
+    came = (
+        f'gave the same trace as the {candidate.engine} one'
+        if is_same
+        else f'gave another trace than the {candidate.engine} one ({again[:_DIGITS]} instead of '
+        f'{recorded[:_DIGITS]}), whose recordings count for nothing'
+    )
+    margins = {**candidate.attempt.margins, **done.attempt.margins}
+    return RepairReport(
+        iteration=done.attempt.iteration,
+        kind='',
+        margins=tuple(
+            MarginChange(
+                condition=condition,
+                before=candidate.attempt.margins.get(condition),
+                realised=done.attempt.margins.get(condition),
+            )
+            for condition in margins
+        ),
+        reason=f'the engine {done.engine} executed {name} again and {came}',
+        outcome=done.attempt.outcome.value,
+        bag=done.execution.bag,
+        confirms=candidate.attempt.iteration,
     )
 
 

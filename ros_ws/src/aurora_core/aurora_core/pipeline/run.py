@@ -26,11 +26,14 @@ from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, Repa
 from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.pipeline.ahead import Ahead
 from aurora_core.pipeline.beside import Beside
+from aurora_core.pipeline.documents import write_again, write_grounded
 from aurora_core.pipeline.history import learned_of, remember, remember_lessons
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.relaxing import relaxed
 from aurora_core.pipeline.repairing import (
     Realisation,
+    best_of,
+    confirmation,
     nothing_left,
     realised,
     repair_report,
@@ -70,6 +73,8 @@ _BEGINS = {
 }
 
 
+# Executes candidates of repair, whatever the engine of the run.
+_LOCAL = 'local'
 # What repair goes on after: a candidate that cannot be decided is none that holds.
 _GO_ON = (VerdictStatus.VIOLATED, VerdictStatus.INCONCLUSIVE)
 
@@ -148,8 +153,9 @@ class _Run:
         grounding, proposal = self.place(graph)
         if grounding.agsg is None:
             return
-        self.keep(grounding.agsg)
-        if self.beside is not None and self.budget():
+        write_grounded(self.folder, grounding.agsg)
+        # A graph has the processors for itself until there is something to repair.
+        if self.beside is not None and self.budget() and self.request.engine == _LOCAL:
             self.beside.prepare()
         first = self.execute(grounding, 0, proposal)
         if first.verdict.status is VerdictStatus.VIOLATED:
@@ -204,12 +210,6 @@ class _Run:
                 return again, proposal
         return outcome, None
 
-    def keep(self, grounded: Agsg) -> None:
-        """Write the documents that a grounded scenario is executed from."""
-        self.folder.write_stage(StageFile.AGSG, grounded.iteration, grounded)
-        self.folder.write_stage(StageFile.GROUNDING, grounded.iteration, grounded.texts.grounding)
-        self.folder.write_stage(StageFile.SCHEDULE, grounded.iteration, grounded.texts.schedule)
-
     def execute(
         self,
         grounding: GroundingOutcome,
@@ -229,7 +229,7 @@ class _Run:
             cancelled=self.control.cancelled,
         )
         with self.stage('execute'):
-            result = self.executed(graph, bag, inner, next_ones)
+            result, engine = self.executed(graph, bag, inner, next_ones)
             execution = self._execution(result, bag.name)
             self.note(execution=execution, iterations=iteration + 1)
             made = BagReport(
@@ -251,22 +251,28 @@ class _Run:
             grounding=grounding,
             execution=execution,
             verdict=verdict,
+            engine=engine,
         )
 
     def executed(
         self, graph: Agsg, bag: Path, control: RunControl, next_ones: Iterator[Agsg] | None
-    ) -> ExecutionResult:
-        """Execute beside this process where that can be, else here."""
-        found = None
+    ) -> tuple[ExecutionResult, str]:
+        """Execute beside this process where that can be, else here; tell with which engine."""
         if self.ahead is not None and next_ones is not None:
             found = self.ahead.execute(graph, bag, control, next_ones)
-        return found or self.stages.execute(graph, bag, self.request, control)
+            if found is not None:
+                return found, _LOCAL
+            if control.cancelled():
+                raise _Cancelled
+        done = self.stages.execute(graph, bag, self.request, control)
+        return done, self.request.engine
 
     def repair(self, graph: Agsg, first: Realisation) -> None:
         """Realise a violated request otherwise, until it holds or the budget is spent.
 
         The run is judged by its best realisation, the earliest one among equals; the request and
-        what it is judged by stay as they are.
+        what it is judged by stay as they are. Where another engine executed that one, the engine
+        of the run executes it again.
         """
         budget = self.budget()
         made = [first]
@@ -274,33 +280,60 @@ class _Run:
         known = {'learned': taught.moves, 'errors': taught.errors}
         past = [first.attempt.model_copy(update=known)]
         tries = self.known.repair.groundings if budget else 0
-        # What a model would revise is not asked of it before its turn.
-        if self.beside is not None and self.request.model == 'offline':
+        counting: list[Realisation] = []
+        is_local = self.request.engine == _LOCAL
+        # What a model would revise is not asked of it before its turn; in a graph it is not asked.
+        if self.beside is not None and (self.request.model == 'offline' or not is_local):
+            if not is_local and tries:
+                self.beside.prepare()
             basis = self.known.basis
             run_id = self.folder.run_id
             self.ahead = Ahead(self.beside, self.stages, self.request, run_id, basis)
         try:
             while tries and len(made) <= budget and made[-1].verdict.status in _GO_ON:
                 tries -= 1
-                self._share = (len(made) - 1) / budget, 1.0 / budget
+                slots = budget + (self.ahead is not None and not is_local)
+                self._share = (len(made) - 1) / slots, 1.0 / slots
                 if not self.attempt(graph, made, past, tries):
                     break
+            best = best_of(made, self.request.engine)
+            if best.engine != self.request.engine:
+                self._share = budget / (budget + 1), 1.0 / (budget + 1)
+                counting = self.confirm(best, made)
         except (_Cancelled, KeyboardInterrupt):
             self._drop(len(made))
             raise
         finally:
             if self.ahead is not None:
                 self.ahead.drop()
-            best = max(made, key=lambda r: r.attempt.rank)
+            best = best_of(counting or made, self.request.engine)
             self.note(grounding=best.grounding, execution=best.execution, verdict=best.verdict)
             self.note(iterations=len(made))
             conditions = first.graph.conditions
-            self.taught = RepairEpisode(
-                id=self.folder.run_id,
-                lessons=lessons(past, conditions),
-                missed=estimates(past, conditions),
-            )
+            if not counting or counting is made:
+                self.taught = RepairEpisode(
+                    id=self.folder.run_id,
+                    lessons=lessons(past, conditions),
+                    missed=estimates(past, conditions),
+                )
             self._share = None
+
+    def confirm(self, best: Realisation, made: list[Realisation]) -> list[Realisation]:
+        """Execute a candidate of another engine in that of the run; return what counts then.
+
+        Both give the same trace. Where they do not, only what the engine of the run made counts.
+        """
+        iteration = len(made)
+        graph = best.graph.model_copy(update={'iteration': iteration})
+        write_again(self.folder, graph, self.facts.feasibility)
+        done = self.execute(best.grounding.model_copy(update={'agsg': graph}), iteration)
+        made.append(done)
+        told = confirmation(best, done)
+        self._tell(told)
+        self.folder.write_stage(StageFile.EDITS, iteration, told)
+        if done.execution.trace_sha256 == best.execution.trace_sha256:
+            return made
+        return [one for one in made if one.engine == self.request.engine]
 
     def relax(self) -> None:
         """Look with which stated numbers the run would hold, where whoever asks wants to know."""
@@ -328,7 +361,7 @@ class _Run:
     ) -> bool:
         """Try the next proposal; False when there is none. `tries`: how many may follow it."""
         iteration = len(made)
-        best = max(made, key=lambda r: r.attempt.rank)
+        best = best_of(made, self.request.engine)
         bag = self.folder.path / best.execution.bag
         with self.stage('repair'):
             proposal = self.stages.propose(best.graph, best.verdict, bag, tuple(past))
@@ -345,10 +378,7 @@ class _Run:
             self._tell(repair_report(proposal, attempt, best, why))
             return True
         assert grounding.agsg is not None  # `why_not` tells
-        self.folder.write_stage(StageFile.SPEC, iteration, grounding.agsg.spec)
-        if self.facts.feasibility is not None:
-            self.folder.write_stage(StageFile.FEASIBILITY, iteration, self.facts.feasibility)
-        self.keep(grounding.agsg)
+        write_again(self.folder, grounding.agsg, self.facts.feasibility)
         next_ones = None
         if self.ahead is not None:
             given = proposal, grounding
@@ -358,6 +388,8 @@ class _Run:
         made.append(done)
         past.append(done.attempt)
         told = repair_report(proposal, done.attempt, best)
+        if done.engine != self.request.engine:
+            told = told.model_copy(update={'engine': done.engine})
         self._tell(told)
         self.folder.write_stage(StageFile.EDITS, iteration, told)
         return True

@@ -56,7 +56,11 @@ def with_finished(facts: RunFacts, folder: RunFolder) -> RunFacts:
         return facts
     if not folder.file(StageFile.VERDICT.name_at(len(made))).exists():
         folder.discard(len(made))
-    best = max(made, key=lambda r: judged_attempt(r.number, r.verdict).rank)
+    told = tuple(_repairs(folder, len(made)))
+    others = {repair.iteration for repair in told if repair.engine}
+    best = max(
+        made, key=lambda r: (judged_attempt(r.number, r.verdict).rank, r.number not in others)
+    )
     spec = best.graph.spec
     return replace(
         facts,
@@ -69,7 +73,7 @@ def with_finished(facts: RunFacts, folder: RunFolder) -> RunFacts:
         bags=tuple(_bag(folder, r) for r in made),
         verdict=best.verdict,
         iterations=len(made),
-        repairs=tuple(_repairs(folder, len(made))),
+        repairs=told,
     )
 
 

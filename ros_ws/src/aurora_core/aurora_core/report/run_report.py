@@ -120,6 +120,8 @@ class RepairReport(Document):
         outcome: What came of it, see `outcomes.repair.AttemptOutcome`.
         bag: Folder of its bag, None where nothing was simulated.
         implicated: What the fault localization put first.
+        engine: Who executed it, where that is not the engine of the run: a candidate.
+        confirms: Number of the candidate that the engine of the run executed again.
     """
 
     iteration: int
@@ -130,6 +132,8 @@ class RepairReport(Document):
     outcome: str = ''
     bag: str | None = None
     implicated: tuple[Implicated, ...] = ()
+    engine: str = omitted('')
+    confirms: int | None = omitted(None)
 
 
 class StatedChange(Document):

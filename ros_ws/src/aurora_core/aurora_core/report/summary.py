@@ -7,7 +7,7 @@ from __future__ import annotations
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.repair import AttemptOutcome
 from aurora_core.outcomes.verdict import Reason
-from aurora_core.report.run_report import ConditionReport, RunReport
+from aurora_core.report.run_report import ConditionReport, RepairReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.trace.trace import Integrity
 
@@ -71,11 +71,22 @@ def _doubted(report: RunReport) -> str:
 
 def _repaired(report: RunReport) -> str:
     """Return how many realisations it took, where the first one did not hold."""
-    tried = sum(repair.bag is not None for repair in report.repairs)
+    tried = len(_tried(report))
     told = _placed(report)
     if not tried:
         return told
-    return f'{told} It took {tried + 1} realisations; the request is unchanged.'
+    return f'{told} It took {tried + 1} realisations; the request is unchanged.{_again(report)}'
+
+
+def _tried(report: RunReport) -> list[RepairReport]:
+    """Return the other realisations; one that only confirms an earlier one is none."""
+    return [r for r in report.repairs if r.bag is not None and r.confirms is None]
+
+
+def _again(report: RunReport) -> str:
+    """Return what the engine of the run gave of a candidate that another one executed."""
+    told = [r.reason for r in report.repairs if r.confirms is not None]
+    return ''.join(f' {reason[:1].upper()}{reason[1:]}.' for reason in told)
 
 
 def _placed(report: RunReport) -> str:
@@ -89,18 +100,19 @@ def _placed(report: RunReport) -> str:
 
 def _not_repaired(report: RunReport) -> str:
     """Return what repair tried in vain, and why it ended."""
-    made = [repair for repair in report.repairs if repair.iteration > 0]
+    made = [r for r in report.repairs if r.iteration > 0 and r.confirms is None]
     told = _placed(report)
     if not made:
         return told
-    tried = sum(repair.bag is not None for repair in made)
+    tried = len(_tried(report))
     last = made[-1]
     why = f': {last.reason}' if last.bag is None else ''
     if not tried:
         return f'{told} Repair had nothing to try{why}.'
     always = f' (in none of them: {", ".join(ids)})' if (ids := _never(report)) else ''
     plural = 's' * (tried > 1)
-    return f'{told} {tried} other realisation{plural} did not hold either{always}{why}.'
+    held = f'{told} {tried} other realisation{plural} did not hold either{always}{why}.'
+    return held + _again(report)
 
 
 def _never(report: RunReport) -> list[str]:
@@ -108,7 +120,7 @@ def _never(report: RunReport) -> list[str]:
 
     What follows from something that never happened is left out where something has a margin.
     """
-    made = [repair for repair in report.repairs if repair.bag is not None]
+    made = _tried(report)
     margins = [{row.condition: row.realised for row in repair.margins} for repair in made]
     failed = [row for row in report.conditions if not row.satisfied]
     failed = [row for row in failed if row.margin is not None] or failed

@@ -66,6 +66,7 @@ def test_a_place_where_somebody_stands_as_wrong_as_before_is_not_simulated() -> 
         grounding=first,
         execution=ExecutionFacts(bag='', ticks=1, dt_s=1.0, trace_sha256='', motion_sha256=''),
         verdict=verdict,
+        engine='local',
     )
     unfit = why_not(1, proposal, other, first, best, [best.attempt])
     assert unfit is not None

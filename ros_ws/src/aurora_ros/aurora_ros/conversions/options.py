@@ -14,6 +14,7 @@ from aurora_core.pipeline.stages import RunRequest, request_of
 # The short name that people type, and the field it stands for.
 _SHORT_NAMES = {'map': 'map_name'}
 _RUNS_DIRECTORY = 'out'
+_PROCESSES = 'jobs'
 
 
 def options_json(request: RunRequest) -> str:
@@ -28,7 +29,8 @@ def run_request(prompt: str, options: str) -> RunRequest:
         SpecError: The options are not a JSON object of known names and values.
     """
     fields = {_SHORT_NAMES.get(name, name): value for name, value in _given(options).items()}
-    fields.pop(_RUNS_DIRECTORY, None)
+    for other in (_RUNS_DIRECTORY, _PROCESSES):
+        fields.pop(other, None)
     return request_of({**fields, 'prompt': prompt}, 'options_json')
 
 
@@ -47,6 +49,20 @@ def runs_directory(options: str) -> Path | None:
             hint='the node and its client may run in different folders',
         )
     return Path(named)
+
+
+def repair_processes(options: str) -> int | None:
+    """Return how many processes the options name as `jobs`, None where they name none.
+
+    Raises:
+        SpecError: It is no number from 1 on, or the options are not valid.
+    """
+    named = _given(options).get(_PROCESSES)
+    if named is None:
+        return None
+    if not isinstance(named, int) or isinstance(named, bool) or named < 1:
+        raise SpecError(f'options_json: expected a number from 1 on as jobs, found {named!r}')
+    return named
 
 
 def _given(options: str) -> dict[str, Any]:

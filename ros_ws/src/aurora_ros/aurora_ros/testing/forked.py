@@ -88,6 +88,8 @@ def _become(
 ) -> None:
     """Be the node: what `python -c` with its `main` would do, in a session of its own."""
     os.setsid()
+    # To itself it is none: a node may have children of its own.
+    multiprocessing.current_process().daemon = False
     os.chdir(folder)
     os.environ.clear()
     os.environ.update(environment)

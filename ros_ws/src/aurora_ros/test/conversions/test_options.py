@@ -13,7 +13,12 @@ pytest.importorskip('rclpy')
 from aurora_core.errors import SpecError
 from aurora_core.execution.faults import Fault
 from aurora_core.pipeline.stages import RunRequest
-from aurora_ros.conversions.options import options_json, run_request, runs_directory
+from aurora_ros.conversions.options import (
+    options_json,
+    repair_processes,
+    run_request,
+    runs_directory,
+)
 
 
 def test_nothing_stated_gives_the_defaults() -> None:
@@ -32,6 +37,21 @@ def test_short_names_and_the_folder() -> None:
     assert run_request('go', options) == RunRequest(prompt='go', map_name='junction', seed=3)
     assert runs_directory(options) == Path('/tmp/x')
     assert runs_directory('') is None
+
+
+def test_processes_are_no_part_of_a_request() -> None:
+    assert run_request('go', '{"jobs": 2}') == RunRequest(prompt='go')
+    assert [repair_processes(text) for text in ('', '{"jobs": null}', '{"jobs": 2}')] == [
+        None,
+        None,
+        2,
+    ]
+
+
+@pytest.mark.parametrize('jobs', ['0', '-1', '"2"', 'true', '1.5'])
+def test_a_number_of_processes_that_is_none_is_refused(jobs: str) -> None:
+    with pytest.raises(SpecError, match='options_json'):
+        repair_processes(f'{{"jobs": {jobs}}}')
 
 
 @pytest.mark.parametrize(
