@@ -275,7 +275,8 @@ def driven_speed(case: Case, requirement: Requirement, body: str) -> Judged:
     No leader, no junction (so no signal either) within 50 m, not while it speeds up or slows, and
     not from an annotated action on.
     """
-    asked = wanted(requirement, 'speed_mps', case.variation, limits.SPEED)
+    rule = limits.WALKING if case.scene.is_person(body) else limits.SPEED
+    asked = wanted(requirement, 'speed_mps', case.variation, rule)
     if asked is None:
         return holds('')
     scene, speed = case.scene, case.scene.speed(body)

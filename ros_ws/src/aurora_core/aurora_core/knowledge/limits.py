@@ -115,6 +115,7 @@ class Tolerances(_Table):
     altitude_share: Share
     standoff_m: Tolerance
     route_speed_mps: Tolerance
+    walking_speed_mps: Tolerance = omitted(Tolerance(absolute=1.0, relative=0.1))
     route_speed_share: Share
     waypoint_horizontal_m: NotNegative
     duration_s: Tolerance

@@ -34,7 +34,14 @@ from aurora_core.spec.scenario import (
     UavMission,
 )
 from aurora_core.spec.scene import Link, World
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation, Role
+from aurora_core.spec.vocabulary import (
+    MOVING,
+    AgentType,
+    BehaviorKind,
+    MissionMode,
+    Relation,
+    Role,
+)
 
 # Sight is lost now and then: this much longer than the time of sight that is asked. A scenario of
 # stated length has no such room.
@@ -84,9 +91,10 @@ def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
 
 
 def standing(spec: ScenarioSpec) -> ScenarioSpec:
-    """Return the specification in which who stops at a place and waits does so there.
+    """Return the specification in which who waits after a motion comes to rest for it.
 
-    "The van stops at the intersection and waits for 5 s": that is one stop, of 5 s.
+    "The van stops at the intersection and waits for 5 s" is one stop, of 5 s; "walks to the
+    crosswalk and waits there for 5 s" is another one: no wait before it has set off.
 
     Args:
         spec: The request, whoever read it; returned as it is when nobody does.
@@ -94,12 +102,19 @@ def standing(spec: ScenarioSpec) -> ScenarioSpec:
 
     def stays(agent: GroundAgent) -> GroundAgent:
         behaviors = list(agent.behaviors)
-        for k, (stop, wait) in enumerate(pairwise(agent.behaviors)):
-            stops = stop.kind is BehaviorKind.STOP and stop.target is not None
-            waits = wait.kind is BehaviorKind.WAIT and wait.target in (None, stop.target)
-            if stops and waits and stop.duration_s is None and wait.duration_s is not None:
-                behaviors[k : k + 2] = [stop.model_copy(update={'duration_s': wait.duration_s})]
-                return agent.model_copy(update={'behaviors': tuple(behaviors)})
+        for k, (before, wait) in enumerate(pairwise(agent.behaviors)):
+            waits = wait.kind is BehaviorKind.WAIT and wait.target in (None, before.target)
+            if not waits or wait.duration_s is None or before.duration_s is not None:
+                continue
+            here = {'duration_s': wait.duration_s, 'target': before.target}
+            if before.kind is BehaviorKind.STOP and before.target is not None:
+                behaviors[k : k + 2] = [before.model_copy(update=here)]
+            elif before.kind in MOVING:
+                stop = {'kind': BehaviorKind.STOP, **here}
+                behaviors[k + 1] = wait.model_copy(update=stop)
+            else:
+                continue
+            return agent.model_copy(update={'behaviors': tuple(behaviors)})
         return agent
 
     agents = tuple(map(stays, spec.agents))

@@ -328,8 +328,8 @@ BEHAVIOURS = (
         what='led',
     ),
     # 1 m/s is allowed; waiting at the kerb does not count.
-    Row(id='car1.walk.speed', make=lambda: _walker(_then(0.0, 1.2)), margin=1.0 - 0.8),
-    Row(id='car1.walk.speed', make=lambda: _walker(_steady(2.8)), margin=0.0 - 0.8),
+    Row(id='car1.walk.speed', make=lambda: _walker(_then(0.0, 1.4)), margin=1.0 - 0.8),
+    Row(id='car1.walk.speed', make=lambda: _walker(_steady(1.2)), margin=0.0 - 0.8),
     Row(id='car1.walk.speed', make=lambda: _walker(STILL), reason=EMPTY),
     # 14.5 m between centres are 10 m between bumpers; 5 m are asked at more than 2 m/s.
     Row(id='car1.follow', make=lambda: _pair(B.FOLLOW, 5.0, 14.5, 5.0), margin=1.0 - 0.8),

@@ -142,13 +142,20 @@ def test_who_approaches_nobody_named_comes_nearer_to_whom_it_is_placed_to() -> N
     assert targets == {'van1': ('ego', True), 'ego': ('bus1', True), 'bus1': ('ego', True)}
 
 
-def test_who_stops_somewhere_and_waits_does_so_there() -> None:
+@pytest.mark.parametrize(
+    ('prompt', 'place'),
+    [
+        ('A van stops at the intersection and waits there for at least 5 s.', 'intersection'),
+        ('A person walks to the crosswalk and waits there for at least 5 s.', 'crosswalk'),
+        ('A car drives at 10 m/s, waits for at least 5 s and drives on.', None),
+    ],
+)
+def test_who_waits_after_a_motion_comes_to_rest_for_it(prompt: str, place: str | None) -> None:
     """A wait of its own would be kept by whoever stands before it has set off."""
-    told = 'The van stops at the intersection and waits there for at least 5 seconds.'
-    read = parse_offline(told, CONTEXT).spec
+    read = parse_offline(prompt, CONTEXT).spec
     assert read is not None
-    (van,) = standing(read).agents
-    (stop,) = van.behaviors
-    assert (stop.kind, stop.target) == (BehaviorKind.STOP, 'intersection')
+    (agent,) = standing(read).agents
+    *_, stop = agent.behaviors
+    assert (stop.kind, stop.target) == (BehaviorKind.STOP, place)
     assert stop.duration_s is not None
     assert stop.duration_s.value == 5.0

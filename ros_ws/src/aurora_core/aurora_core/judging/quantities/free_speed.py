@@ -229,7 +229,9 @@ def implied(
     of = (agent.id,) if walks else (agent.id, *_followed(inputs, agent, behavior))
     slow_mps = {} if walks else _slower(inputs, agent, of[1:], speed)
     slower = tuple(slow_mps)
-    slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
+    # A metre per second is most of a walk.
+    tolerance = t.walking_speed_mps if walks else t.route_speed_mps
+    slack = tolerance.of(speed.value, approximate=speed.approximate)
     where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
     rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'
     rest += f', until it has caught up with {" and ".join(slower)}' if slower else ''
