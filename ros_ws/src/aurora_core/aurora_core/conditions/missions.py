@@ -81,11 +81,18 @@ def _course(
 def _numbers(
     inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
 ) -> Iterator[Condition | Underivable]:
-    """Yield the conditions that explicit altitude, duration and bearing imply."""
+    """Yield the conditions that explicit altitude, duration and bearing imply.
+
+    No route is flown at a distance from what it is about, nor in a direction from it.
+    """
     if altitude := _stated(mission.altitude_m):
         yield altitude_fraction.implied(inputs, arguments, altitude, source)
     if duration := _stated(mission.duration_s):
         yield phase_duration.implied(inputs, arguments, duration, source)
+    standoff = _stated(mission.standoff_m)
+    if standoff is not None and mission.mode is MissionMode.NAVIGATE:
+        what = 'a distance of a pattern from its place'
+        yield Underivable(element=mission.id, what=what, span=standoff.span)
     bearing = _stated(mission.bearing_deg)
     if bearing is None:
         return

@@ -341,3 +341,12 @@ def test_going_round_a_place_is_more_than_driving(tb: ModuleType) -> None:
     derivation = _derive(tb, case)
     assert ('car1', 'behaviour circulate') in {(u.element, u.what) for u in derivation.underivable}
     assert 'car1.circulate' not in _ids(derivation)
+
+
+def test_a_pattern_keeps_no_distance_from_its_place(tb: ModuleType) -> None:
+    case = tb.survey_case()
+    away = tb.number(25.0, explicit=True)
+    missions = [dict(m) | {'standoff_m': away} for m in case.spec.missions]
+    case.spec = tb.spec(**dict(case.spec) | {'missions': missions})
+    found = {(u.element, u.what) for u in _derive(tb, case).underivable}
+    assert ('m1', 'a distance of a pattern from its place') in found
