@@ -162,7 +162,9 @@ class FlightPlanner:
         free = mission.altitude_m.provenance is Provenance.DEFAULT and len(spec.uavs) == 1
         higher = tuple(self._higher(mission)) if free else ()
         here = onward_from(spec, mission, site, before, partial(self._target_mps, spec))
-        for at in () if here is None else (mission, *higher):
+        for at in (mission, *higher):
+            if here is None:
+                break
             onward = self._routes.onward(at, here, others)
             if not isinstance(onward, Rejected):
                 return onward

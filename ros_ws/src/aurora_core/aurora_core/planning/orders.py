@@ -49,7 +49,8 @@ def following(spec: ScenarioSpec) -> ScenarioSpec:
         spec: The request, whoever read it; returned as it is when nothing follows so.
     """
     ordered = {order.then for order in spec.orders}
-    over = {agent.id: _lasting_one(agent) for agent in spec.agents}
+    waited = {e.trigger.who for e in spec.events if isinstance(e.trigger, BehaviorDoneTrigger)}
+    over = {agent.id: _lasting_one(agent) for agent in spec.agents if agent.id not in waited}
 
     def timed(event: Event) -> Event:
         action = event.action

@@ -84,3 +84,10 @@ def test_who_stops_for_somebody_who_crosses_stops_before_the_crosswalk(
     ]
     assert ahead_m
     assert ego.length_m / 2.0 < min(ahead_m) < 20.0
+
+
+def test_who_is_to_set_off_to_a_speed_stands_where_so_much_is_allowed(
+    agents: Agents, map_of: Callable[[str], MapModel]
+) -> None:
+    truck = agents('A truck waits. After 10 seconds the truck sets off with 12 m/s.')['truck1']
+    assert map_of('downtown').network.lane(truck.lane_id).speed_limit_mps >= 12.0

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from aurora_core.planning.orders import waiting
+from aurora_core.planning.orders import following, waiting
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -94,3 +94,42 @@ def test_what_is_timed_otherwise_stays(
 ) -> None:
     spec = _spec(parameter, order, **events)
     assert waiting(spec) is spec
+
+
+def _drives_on(make: Make, told_s: Parameter, *, asked: int = 1, **event: Any) -> ScenarioSpec:
+    """car1 drives for a time, then accelerates, then stops."""
+    drives = {'kind': 'drive', 'duration_s': told_s}
+    does = ({'do': 'accelerate', 'agent': 'car1'}, {'do': 'stop', 'agent': 'car1'})
+    events = [
+        {'id': f'e{k}', 'action': action, 'span': {'start': 60 + k, 'end': 61 + k}} | event
+        for k, action in enumerate(does)
+    ]
+    agents = [{'id': 'car1', 'type': 'car', 'behaviors': [drives] * asked}]
+    return ScenarioSpec.model_validate({'prompt': 'x' * 80, 'agents': agents, 'events': events})
+
+
+def test_what_nobody_dates_follows_the_stated_time_of_what_its_agent_does(
+    parameter: Make,
+) -> None:
+    spec = following(_drives_on(parameter, parameter(20.0, 's')))
+    first, second = (e.trigger for e in spec.events)
+    assert first is not None
+    assert (first.on, first.who, first.behavior) == ('behavior_done', 'car1', 'drive')  # type: ignore[union-attr]
+    assert second is None
+    assert following(spec) == spec
+
+
+@pytest.mark.parametrize(
+    ('asked', 'event'),
+    [
+        (2, {}),  # which of the two times?
+        (0, {}),
+        (1, {'trigger': {'on': 'message_received', 'by': 'car1'}}),
+        (1, {'span': None}),  # nobody knows what is said first
+    ],
+)
+def test_what_follows_no_stated_time_stays(
+    parameter: Make, asked: int, event: dict[str, Any]
+) -> None:
+    spec = _drives_on(parameter, parameter(20.0, 's'), asked=asked, **event)
+    assert following(spec) is spec
