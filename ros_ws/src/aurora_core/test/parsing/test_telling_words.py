@@ -136,6 +136,12 @@ def _unread(prompt: str) -> list[str]:
         ('A drone tracks a van. The other van stops.', 'other van'),
         ('A van brakes as a pedestrian crosses.', 'as a pedestrian'),
         ('A pedestrian crosses as the ego approaches.', 'as the ego'),
+        ('A car stops at City Hall for 8 s and then turns left.', 'then turns'),
+        ('A car stops at City Hall for 8 s and then drives on at 5 m/s.', 'then drives on'),
+        ('A car stops at City Hall and then drives on.', 'then drives on'),
+        ('A pedestrian crosses and then waits for 20 s.', 'then waits'),
+        ('The car brakes only after the bus has stopped.', 'only after'),
+        ('A drone flies to City Hall, turns around and lands.', 'turns around'),
         ('The ego never exceeds 30 km/h while the drone is within 50 m.', 'while the drone'),
     ],
 )
@@ -179,6 +185,11 @@ def test_admitted(prompt: str, quoted: str) -> None:
         'The scenario lasts 100 s. A drone hovers at 40 m for 60 s the whole time.',
         'A drone tracks a van and sees it for 20 seconds without interruption.',
         'A drone tracks a van and always keeps it in view without interruption.',
+        'A car stops at City Hall for 8 s and then drives on.',
+        'A pedestrian waits at the crosswalk for 20 s and then crosses.',
+        'The drone lands only after the bus has stopped. It tracks the bus at 35 m.',
+        'A pedestrian crosses at the crosswalk only after the car has stopped.',
+        'A drone flies three turns around City Hall with a radius of 60 m.',
     ],
 )
 def test_what_something_carries_is_read(prompt: str) -> None:
