@@ -77,12 +77,17 @@ def _near(frame: Frame) -> bool:
             continue
         adjunct.used = True
         _track_it(frame, subjects[0], other)
+        lasts = frame.time('for')
+        if lasts is not None:
+            lasts.used = True
+        told = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
         add_condition(
             frame,
-            'distance',
+            'horizontal_distance' if 'horizontal' in told else 'distance',
             (subjects[0].id, other),
             '<=' if near else '>=',
             values.explicit('condition_distance', measure),
+            hold=values.explicit('condition_time', lasts.measure) if lasts else None,
         )
         return True
     return False
