@@ -200,7 +200,9 @@ class AdjunctReader:
             return made, stop
         heights = [measure]
         while self._is(i + len(heights), AtomKind.MEASURE, LENGTH):
-            heights.append(self._atoms[i + len(heights)].measure or measure)
+            following = self._atoms[i + len(heights)].measure
+            assert following is not None
+            heights.append(following)
         last = i + len(heights) + 1
         shared = self._at(last)
         if (

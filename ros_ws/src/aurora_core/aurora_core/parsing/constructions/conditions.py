@@ -78,8 +78,10 @@ def _near(frame: Frame) -> bool:
         adjunct.used = True
         _track_it(frame, subjects[0], other)
         lasts = frame.time('for')
-        if lasts is not None:
+        hold = None
+        if lasts is not None and lasts.measure is not None:
             lasts.used = True
+            hold = values.explicit('condition_time', lasts.measure)
         told = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
         add_condition(
             frame,
@@ -87,7 +89,7 @@ def _near(frame: Frame) -> bool:
             (subjects[0].id, other),
             '<=' if near else '>=',
             values.explicit('condition_distance', measure),
-            hold=values.explicit('condition_time', lasts.measure) if lasts else None,
+            hold=hold,
         )
         return True
     return False

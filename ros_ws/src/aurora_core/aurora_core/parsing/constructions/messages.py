@@ -48,7 +48,9 @@ def message(frame: Frame) -> SendMessage | None:
     senders = _teller(frame, senders)
     receivers = _receivers(frame, senders)
     receivers = receivers or _awaits(frame, senders)
-    if not receivers:  # `the link between the drone and the car …; it reports twice per second`
+    often = frame.time('every') is not None or frame.measure(RATE) is not None
+    if not receivers and (often or frame.has_mark(AtomKind.MESSAGE.value)):
+        # `the link between the drone and the car …; it reports twice per second`
         ends = {k.receiver for k in frame.scene.links if k.sender == senders[0].id and k.receiver}
         receivers = tuple(e for e in frame.scene.entities if ends == {e.id})
     if not receivers:

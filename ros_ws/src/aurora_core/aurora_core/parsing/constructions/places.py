@@ -375,13 +375,10 @@ def _anchor(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str
     return max(others, key=lambda e: e.seen).id if others else None
 
 
-_MUTUAL = frozenset({Relation.ADJACENT_LANE, Relation.BESIDE})
-
-
 def _each_other(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str | None:
     """`two vans side by side`, `a bus and a car next to each other`: of one of themselves."""
     words = frame.scene.prompt[adjunct.start : adjunct.end].lower().replace('-', ' ')
-    mutual = adjunct.key in _MUTUAL and words.endswith(MUTUAL)
+    mutual = adjunct.key in (Relation.ADJACENT_LANE, Relation.BESIDE) and words.endswith(MUTUAL)
     return subjects[1].id if mutual and not adjunct.nouns and len(subjects) > 1 else None
 
 
