@@ -43,6 +43,7 @@ _FITS = {
     'retransmissions': (COUNT,),
     'waypoint': (COUNT,),
     'turn': (COUNT,),
+    'gust': (SPEED,),
     'wind': (SPEED,),
     'crosswind': (SPEED,),
     'headwind': (SPEED,),
@@ -197,17 +198,23 @@ class AdjunctReader:
             made = self._make(AdjunctKind.MARK, 'list', begin, stop, prep=prep)
             made.measures = several
             return made, stop
-        shared = self._at(i + 2)
+        heights = [measure]
+        while self._is(i + len(heights), AtomKind.MEASURE, LENGTH):
+            following = self._atoms[i + len(heights)].measure
+            assert following is not None
+            heights.append(following)
+        last = i + len(heights) + 1
+        shared = self._at(last)
         if (
-            self._is(i + 1, AtomKind.CONJUNCTION)
+            self._is(last - 1, AtomKind.CONJUNCTION)
             and shared is not None
             and shared.key == measure.dimension == LENGTH
             and shared.kind is AtomKind.MEASURE
-        ):  # `at 30 m and 40 m`: each of two has one of them
+        ):  # `at 30 m, 40 m and 50 m`: each of so many has one of them
             assert shared.measure is not None
-            stop = i + 4 if self._is(i + 3, AtomKind.THING) else i + 3
+            stop = last + 2 if self._is(last + 1, AtomKind.THING) else last + 1
             made = self._make(AdjunctKind.MARK, 'list', begin, stop, prep=prep)
-            made.measures = (measure, shared.measure)
+            made.measures = (*heights, shared.measure)
             return made, stop
         j = i + 1
         if self._is(j, AtomKind.PREPOSITION, 'of', 'in') and self._is(j + 1, AtomKind.THING):

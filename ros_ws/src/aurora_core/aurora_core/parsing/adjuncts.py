@@ -14,7 +14,7 @@ from aurora_core.spec.parameter import Span
 # Relations of several to one of themselves, by the end of their words.
 MUTUAL = (
     *('each other', 'one another', 'side by side', 'abreast', 'neck and neck'),
-    'shoulder to shoulder',
+    *('shoulder to shoulder', 'adjacent lanes', 'neighbouring lanes', 'neighboring lanes'),
 )
 
 

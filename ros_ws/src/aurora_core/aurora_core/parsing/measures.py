@@ -48,7 +48,9 @@ _AT = frozenset({'at', '@', 'until', 'till', 'from', 'by', 'on', 'around', 'abou
 _EMPHASIS = frozenset(
     {'full', 'whole', 'good', 'solid', 'entire', 'complete', 'round', 'mere', 'further', 'total'}
 )
-_WHOLE = frozenset({'full', 'whole', 'entire', 'complete', 'solid'}) | UNBROKEN
+_WHOLE = (
+    frozenset({'additional', 'complete', 'entire', 'full', 'more', 'solid', 'whole'}) | UNBROKEN
+)
 # `40 m ± 2 m`
 _SIGNS = (
     ('±',),
@@ -58,6 +60,8 @@ _SIGNS = (
     ('plus', 'or', 'minus'),
     ('plus', 'minus'),
 )
+# What may stand behind `every second`: no second one of many.
+_JOINS = (Tag.PREPOSITION, Tag.CONJUNCTION, Tag.THEN, Tag.SUBORDINATOR)
 _CLOCK = re.compile(r'(0?[0-5]):([0-5]\d)')
 
 
@@ -374,7 +378,9 @@ class MeasureReader:
         """`a minute`; `a second` is left to the ordinals unless a preposition precedes."""
         if self._is_stressed(j):
             return _Number(Fraction(1), j + 2, True)
-        if self._word(j) not in ('a', 'an'):
+        if self._is_once(j):
+            return _Number(Fraction(1), j + (self._word(j) == 'once'), True)
+        if self._word(j) not in ('a', 'an', 'another'):
             return None
         unit = self._lexicon.longest_of(self._words, j + 1, (Tag.UNIT,))
         if unit is None or len(self._word(j + 1)) < 3:
@@ -391,6 +397,15 @@ class MeasureReader:
         ):
             return None
         return _Number(Fraction(1), j + 1, True)
+
+    def _is_once(self, j: int) -> bool:
+        """`once per second`, `every second` where no noun follows."""
+        if self._word(j) == 'once':
+            return self._dimension(self._unit(j + 1)[0]) == RATE
+        if self._word(j - 1) != 'every' or self._word(j) not in ('second', 'minute'):
+            return False
+        ends = j + 1 >= len(self._tokens) or self._tokens[j + 1].kind is not TokenKind.WORD
+        return ends or self._lexicon.longest_of(self._words, j + 1, _JOINS) is not None
 
     def _is_stressed(self, j: int) -> bool:
         """`a full minute`, `another good 40 m`."""

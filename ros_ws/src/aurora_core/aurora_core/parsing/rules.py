@@ -7,8 +7,10 @@ from __future__ import annotations
 from itertools import pairwise
 
 from aurora_core.parsing.constructions.places import add_placement
+from aurora_core.parsing.doubts.clauses import stands_bare
 from aurora_core.parsing.own_sequence import own_sequence
 from aurora_core.parsing.scene import Doubt, Entity, LinkDraft, MissionDraft, Scene
+from aurora_core.parsing.values import stated
 from aurora_core.spec.scenario import (
     Behavior,
     DistanceTrigger,
@@ -61,6 +63,7 @@ def settle(scene: Scene) -> None:
     _late_anchors(scene)
     _shared_speeds(scene)
     _climb_only(scene)
+    _heights(scene)
     _onlookers(scene)
     if scene.no_uavs and scene.uavs:
         scene.questions.append('Should there be a UAV or not?')
@@ -96,6 +99,23 @@ def _stays_there(scene: Scene) -> None:
             place = before.target is not None and scene.by_id(before.target) is None
             if both and place and after.target is None:
                 after.target, after.target_inferred = before.target, True
+
+
+def _heights(scene: Scene) -> None:
+    """`tracks a van at 40 m, then climbs to 70 m`: both are heights, where no word says other."""
+    acts = [e.action for e in scene.events if isinstance(e.action, UavAction)]
+    for draft in scene.missions:
+        told, uav = draft.standoff, draft.uav
+        if draft.mode is not MissionMode.TRACK or draft.altitude or told is None:
+            continue
+        others = [m.altitude for m in scene.missions_of(uav) if m.mode is MissionMode.TRACK]
+        others += [a.altitude_m for a in acts if a.uav == uav.id]
+        if told.span is not None and any(others) and stands_bare(scene.prompt, told.span):
+            height = stated('altitude', told.value, told.span.start, told.span.end)
+            draft.altitude = height.model_copy(
+                update={'bound': told.bound, 'approximate': told.approximate}
+            )
+            draft.standoff = None
 
 
 def _shared_speeds(scene: Scene) -> None:

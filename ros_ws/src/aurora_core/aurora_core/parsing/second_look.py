@@ -106,7 +106,9 @@ class _Change:
 
     def admits(self, atoms: tuple[Atom, ...]) -> tuple[Span, ...]:
         here = atoms[self.at]
-        if self.stop or here.kind in _SAYS_NOTHING:
+        behind = atoms[self.at + 1 : self.at + 2]
+        joins = here.kind is AtomKind.CONJUNCTION and any(a.measure for a in behind)
+        if self.stop or here.kind in _SAYS_NOTHING or joins:  # a value that is lost is told itself
             return ()
         return (Span(start=here.start, end=here.end),)
 

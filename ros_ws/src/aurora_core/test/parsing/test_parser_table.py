@@ -37,6 +37,7 @@ _TABLES = [
         'flights.yaml',
         'scenes.yaml',
         'several.yaml',
+        'plain.yaml',
     )
 ]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}
@@ -116,6 +117,7 @@ def scene_lines(spec: ScenarioSpec) -> list[str]:
     stated += [f'traffic {world.traffic_density.value}'] if world.traffic_density else []
     stated += [f'for {_p(world.duration_s)}'] if world.duration_s else []
     stated += [f'wind {_p(world.wind_mps)}'] if world.wind_mps else []
+    stated += [f'gusts {_p(world.gust_mps)}'] if world.gust_mps else []
     stated += [f'wind from {_p(world.wind_from_deg)}'] if world.wind_from_deg else []
     stated += [world.wind.value] if world.wind else []
     if stated:

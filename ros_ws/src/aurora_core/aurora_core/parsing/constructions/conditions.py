@@ -77,12 +77,19 @@ def _near(frame: Frame) -> bool:
             continue
         adjunct.used = True
         _track_it(frame, subjects[0], other)
+        lasts = frame.time('for')
+        hold = None
+        if lasts is not None and lasts.measure is not None:
+            lasts.used = True
+            hold = values.explicit('condition_time', lasts.measure)
+        told = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
         add_condition(
             frame,
-            'distance',
+            'horizontal_distance' if 'horizontal' in told else 'distance',
             (subjects[0].id, other),
             '<=' if near else '>=',
             values.explicit('condition_distance', measure),
+            hold=hold,
         )
         return True
     return False

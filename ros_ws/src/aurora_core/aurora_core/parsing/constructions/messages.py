@@ -48,6 +48,11 @@ def message(frame: Frame) -> SendMessage | None:
     senders = _teller(frame, senders)
     receivers = _receivers(frame, senders)
     receivers = receivers or _awaits(frame, senders)
+    often = frame.time('every') is not None or frame.measure(RATE) is not None
+    if not receivers and (often or frame.has_mark(AtomKind.MESSAGE.value)):
+        # `the link between the drone and the car …; it reports twice per second`
+        ends = {k.receiver for k in frame.scene.links if k.sender == senders[0].id and k.receiver}
+        receivers = tuple(e for e in frame.scene.entities if ends == {e.id})
     if not receivers:
         ego = frame.scene.ego
         if ego is None or ego in senders:
@@ -74,6 +79,11 @@ def _rate(frame: Frame, link: LinkDraft) -> None:
     if rate.dimension == TIME:
         rate = replace(rate, dimension=RATE, value=1.0 / rate.value)
     link.rate = values.explicit('link_rate', rate)
+    lasts = frame.time('for')
+    flown = [m for m in frame.scene.missions if m.uav.id == link.sender]
+    if lasts is not None and lasts.measure is not None and flown and flown[-1].duration is None:
+        lasts.used = True  # one reports as long as one flies
+        flown[-1].duration = values.explicit('mission_duration', lasts.measure)
 
 
 def _awaits(frame: Frame, senders: tuple[Entity, ...]) -> tuple[Entity, ...]:

@@ -378,7 +378,7 @@ def _anchor(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str
 def _each_other(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str | None:
     """`two vans side by side`, `a bus and a car next to each other`: of one of themselves."""
     words = frame.scene.prompt[adjunct.start : adjunct.end].lower().replace('-', ' ')
-    mutual = adjunct.key == Relation.BESIDE and words.endswith(MUTUAL)
+    mutual = adjunct.key in (Relation.ADJACENT_LANE, Relation.BESIDE) and words.endswith(MUTUAL)
     return subjects[1].id if mutual and not adjunct.nouns and len(subjects) > 1 else None
 
 

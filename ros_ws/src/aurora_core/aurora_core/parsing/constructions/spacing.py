@@ -31,7 +31,9 @@ def column(frame: Frame, subjects: tuple[Entity, ...], *, kept: bool) -> None:
     told = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
     if word is None and not _COLUMN.search(told):
         return
+    gap = frame.attribute('gap', 'separation')
     distance = word.measure if word is not None else None
+    distance = distance or (gap.measure if gap is not None else None)
     if word is None and distance is None:
         return
     if distance is not None and not values.accepts('placement_distance', distance):
@@ -51,7 +53,7 @@ def column(frame: Frame, subjects: tuple[Entity, ...], *, kept: bool) -> None:
             span=frame.span,
         )
         add_placement(entity, placement)
-    for adjunct in (word, None):
+    for adjunct in (word, gap):
         if adjunct is not None:
             adjunct.used = True
     _between_them(frame)

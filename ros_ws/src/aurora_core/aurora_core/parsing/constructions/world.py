@@ -39,6 +39,7 @@ def world_words(frame: Frame) -> bool:
     for mark in frame.free(AdjunctKind.MARK, AtomKind.NO_TRAFFIC.value):
         mark.used = found = True
     found = _wind(frame) or found
+    found = _gusts(frame) or found
     found = _duration(frame) or found
     if found:
         frame.scene.became(WORLD_ID)
@@ -103,6 +104,22 @@ def _wind(frame: Frame) -> bool:
         if angle.prep == 'from' and angle.measure is not None and _beside(frame, angle, ends):
             angle.used = True
             world.wind_from = values.explicit('wind_from', angle.measure)
+    return True
+
+
+def _gusts(frame: Frame) -> bool:
+    """Take `gusts of 12 m/s`: the speed of the wind in them, which is above that of the wind."""
+    told, world = frame.attribute('gust'), frame.scene.world
+    for mark in frame.free(AdjunctKind.MARK, 'thing'):
+        if mark.value == 'gust':  # how strong they are remains open
+            frame.flag(mark.start, mark.end)
+    if told is None or told.measure is None or frame.negated:
+        return False
+    mean_mps = 0.0 if world.wind_speed is None else world.wind_speed.value
+    if told.measure.value <= mean_mps or not values.accepts('gust_speed', told.measure):
+        return False
+    told.used = True
+    world.gust = values.explicit('gust_speed', told.measure)
     return True
 
 

@@ -39,7 +39,12 @@ _EVERYONE = re.compile(
     r'\b(?:no|none of|neither|each|every|any|all|both)(?: of)?(?: the)?(?: two)? N0\b'
 )
 _FRACTIONS = ('visible_fraction', 'tracked_fraction', 'delivery_ratio')
-_VALUE = {'L': 'condition_distance', 'V': 'condition_speed', 'T': 'condition_time'}
+_VALUE = {
+    'L': 'condition_distance',
+    'P': 'condition_ratio',
+    'V': 'condition_speed',
+    'T': 'condition_time',
+}
 
 
 class Meaning:
@@ -268,6 +273,9 @@ class Meaning:
             return self._watched('tracked_fraction', limit.op, value)
         if 'delivered' in topics:
             return self._of_links('delivery_ratio', limit.op, value)
+        if 'battery' in topics and self._told.limits:
+            one = self._told.owned or self._told.nouns
+            return self._each('battery', self._who.flyers() if one else self._scene.uavs)
         before = [c.quantity for c in self._scene.conditions[-1:] if c.quantity in _FRACTIONS]
         if before and before[0] != 'delivery_ratio':  # `…, for the bicycle 75 % will do`
             return self._watched(before[0], limit.op, value)

@@ -18,6 +18,7 @@ from pydantic import BaseModel
 
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.doubts.clauses import (
+    Same,
     clause_of,
     meet,
     sentences,
@@ -422,7 +423,7 @@ def taking_part(spec: ScenarioSpec, clause: Clause) -> frozenset[str]:
 
 def _told(spec: ScenarioSpec, clause: Clause) -> set[str]:
     """Return ids and places of the elements of a clause, and of the bodies that take part."""
-    elements = _elements(spec)
+    elements = _elements(Same(spec))
     told = set(clause.ids)
     told |= {
         name
@@ -436,8 +437,9 @@ def _told(spec: ScenarioSpec, clause: Clause) -> set[str]:
 
 # Every clause asks for them again, of one specification after the other.
 @lru_cache(maxsize=1)
-def _elements(spec: ScenarioSpec) -> dict[str, list[tuple[tuple[Span, ...], frozenset[str]]]]:
+def _elements(key: Same) -> dict[str, list[tuple[tuple[Span, ...], frozenset[str]]]]:
     """Return the spans and words of the elements of a specification by their ids."""
+    spec = key.spec
     parts: list[tuple[str, BaseModel]] = []
     for agent in spec.agents:
         parts += [(agent.id, part) for part in (*agent.placements, *agent.behaviors)]

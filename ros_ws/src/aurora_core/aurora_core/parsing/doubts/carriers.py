@@ -41,6 +41,7 @@ from aurora_core.spec.vocabulary import (
 )
 
 _WINDLESS = frozenset({Weather.CLEAR, Weather.CLOUDY, Weather.FOG})
+_STANDING = frozenset({BehaviorKind.PARK, BehaviorKind.STOP, BehaviorKind.WAIT})
 
 
 def _timed(spec: ScenarioSpec, clause: Clause) -> bool:
@@ -53,6 +54,21 @@ def _no_act(spec: ScenarioSpec, clause: Clause) -> bool:
     """A list of what is there, `and then there is a bus`: nobody does anything."""
     behaviors = [b for a in spec.agents if a.id in clause.ids for b in a.behaviors]
     return not any(b.span is None or meet(b.span, clause.span) for b in behaviors)
+
+
+def _stood(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A stated time of standing before: who waits does so from t = 0 on, and drives on by itself.
+
+    Who stops may have done anything else before; driving on has no speed or destination to show.
+    """
+    told = [(a.behaviors, b) for a in spec.agents if a.id in clause.ids for b in a.behaviors]
+    told = [(acts, b) for acts, b in told if b.span is not None and meet(b.span, clause.span)]
+    plain = all(b == Behavior(kind=BehaviorKind.DRIVE, span=b.span) for _, b in told)
+    kinds = _STANDING if plain else _STANDING - {BehaviorKind.STOP}
+    return bool(told) and all(
+        any(p.kind in kinds and p.duration_s is not None for p in acts[: acts.index(b)])
+        for acts, b in told
+    )
 
 
 def _ground(spec: ScenarioSpec, clause: Clause) -> bool:
@@ -186,7 +202,8 @@ def _caused(spec: ScenarioSpec, clause: Clause) -> bool:
 
 def _exclusive(spec: ScenarioSpec, clause: Clause) -> bool:
     """Events whose actions are judged not to come before their triggers."""
-    events = [e for e in spec.events if e.id in clause.ids] or [
+    # Whatever they wait for may stand in the same clause: it has no trigger of its own.
+    events = [e for e in spec.events if e.id in clause.ids and e.trigger is not None] or [
         e for e in spec.events if not isinstance(e.trigger, TimeTrigger)
     ]
     bound = (
@@ -235,7 +252,7 @@ def _watches(spec: ScenarioSpec, clause: Clause) -> bool:
 
 
 def _waits(spec: ScenarioSpec, clause: Clause) -> bool:
-    standing = (BehaviorKind.WAIT, BehaviorKind.PARK)
+    standing = _STANDING - {BehaviorKind.STOP}
     return any(b.kind in standing for a in spec.agents if a.id in clause.ids for b in a.behaviors)
 
 
@@ -498,6 +515,7 @@ CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'kept_distance': _kept_distance,
     'no_distance': _no_distance,
     'no_act': _no_act,
+    'stood': _stood,
     'ground': _ground,
     'speed': _speed,
     'tailgate': _tailgate,

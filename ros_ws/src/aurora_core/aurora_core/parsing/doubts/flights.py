@@ -16,6 +16,7 @@ from aurora_core.parsing.doubts.clauses import (
     meet,
     over,
     sentences,
+    stands_bare,
     stretch,
     within,
 )
@@ -44,7 +45,6 @@ _HEIGHTS = ('ascend', 'climb', 'descend', 'sink')
 # Who does nothing in the air, and what a distance is measured from.
 _GROUND = frozenset({NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO})
 _AWAY = ('from', 'away from')
-_DISTANCE_WORDS = ('ahead', 'away', 'behind', 'beside', 'distance', 'from', 'off', 'standoff')
 _KEPT = re.compile(
     r'\b(?:hold|keep|kept|maintain|min|neither|never|no|none|not|remain|separat|stay)'
 )
@@ -254,15 +254,9 @@ def standoffs_as_heights(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[
         heights = [m.altitude_m for m in spec.missions if m.uav == mission.uav]
         acts = [e.action for e in spec.events if isinstance(e.action, UavAction)]
         heights += [a.altitude_m for a in acts if a.uav == mission.uav and a.altitude_m]
-        before = spec.prompt[: told.span.start].rstrip().lower()
-        if (
-            any(map(_explicit, heights))
-            and not _explicit(mission.altitude_m)
-            and before.endswith(' at')
-        ):
-            behind = [a for a in atoms if a.start >= told.span.end][:1]
-            if not behind or not behind[0].words.startswith(_DISTANCE_WORDS):
-                yield told.span
+        height = any(map(_explicit, heights)) and not _explicit(mission.altitude_m)
+        if height and stands_bare(spec.prompt, told.span):
+            yield told.span
 
 
 def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

@@ -199,7 +199,8 @@ class _Walk:
         if not self._free or before is None or before.kind in _NO_SUBJECT:
             return None
         subject = self._free.pop()
-        behind = self._at(self._told.index(subject) + 1)
+        at = next(j for j in range(k - 1, -1, -1) if self._told[j] is subject)
+        behind = self._at(at + 1)
         if before.kind is AtomKind.COMMA and behind is not None and behind.kind not in _ASIDE:
             return None
         return subject

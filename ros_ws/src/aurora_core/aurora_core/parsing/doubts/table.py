@@ -74,6 +74,7 @@ from aurora_core.parsing.doubts.times import (
     started_again,
     times_of_others,
     times_of_phases,
+    times_of_sequels,
     untied_effects,
 )
 from aurora_core.spec.parameter import Span
@@ -129,6 +130,7 @@ _CHECKS: tuple[_Check, ...] = (
     bounds_meanwhile,
     times_of_others,
     times_of_phases,
+    times_of_sequels,
     stops_at_places,
     deeds_at_places,
     in_their_order,

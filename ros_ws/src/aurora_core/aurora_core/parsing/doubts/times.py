@@ -144,6 +144,8 @@ def bare_sequels(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             if behind and behind[0].kind is AtomKind.RELATIVE:
                 continue  # `then a drone that tracks the van warns the ego`
             happens = any(a.kind in _ACTS for a in sentence[:k])
+            if verb is not None and _goes_on(spec, verb, told):
+                continue
             if told and happens and not any(a.kind in _ACTS for a in told):
                 clause = clause_of(spec, told[0])
                 if clause is not None:
@@ -153,6 +155,21 @@ def bare_sequels(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 def _alone(verb: Atom, told: Sequence[Atom]) -> bool:
     """`the truck stops, then the bus`: whoever is named can only do the same."""
     return verb.key in _INTRANSITIVE and any(a.is_actor for a in told)
+
+
+def _goes_on(spec: ScenarioSpec, verb: Atom, told: Sequence[Atom]) -> bool:
+    """`stops for 20 s and then continues`: one does so by itself when a stated time is over."""
+    clause = clause_of(spec, verb)
+    return (
+        clause is not None
+        and all(a.kind is AtomKind.AUXILIARY for a in told)
+        and any(
+            b.kind.value == verb.key and b.duration_s is not None
+            for a in spec.agents
+            if a.id in clause.ids
+            for b in a.behaviors
+        )
+    )
 
 
 def times_of_others(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
@@ -255,6 +272,18 @@ def times_of_phases(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
         behind = spec.prompt[at.at_s.span.end :].lower()
         if before.endswith('after') and not _OF_THE_RUN.match(behind):
             yield at.at_s.span
+
+
+def times_of_sequels(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`hovers, then descends to 40 m and hovers for 10 s` that became 10 s of the hover before."""
+    for before, after in pairwise(sorted(spec.missions, key=lambda m: m.uav)):
+        parts = (before.altitude_m, after.altitude_m, before.duration_s)
+        spans = [p.span for p in parts if p is not None and p.span is not None]
+        if before.uav != after.uav or len(spans) < 3 or before.duration_s == after.duration_s:
+            continue
+        first, then, lasts = spans
+        if first.start < then.start < lasts.start:
+            yield lasts
 
 
 def distances_of_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
