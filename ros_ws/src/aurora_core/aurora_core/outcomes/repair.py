@@ -106,6 +106,7 @@ class AttemptOutcome(StrEnum):
     REFUSED = 'refused'  # the request would have been judged otherwise; nothing was simulated
     SAME_SCENE = 'same_scene'  # it gives a scene that was tried already; nothing was simulated
     DISPLACED = 'displaced'  # somebody would stand as wrong as before; nothing was simulated
+    UNSHOWN = 'unshown'  # a stated speed would not show either; nothing was simulated
 
 
 class Attempt(Document):

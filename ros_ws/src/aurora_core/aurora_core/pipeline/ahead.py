@@ -15,11 +15,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from aurora_core.errors import AuroraError, ReportError
-from aurora_core.knowledge.basis import Basis
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan
 from aurora_core.pipeline.beside import Beside, Candidate, Pending
+from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.repairing import Realisation, best_of, realised, why_not
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 
@@ -36,7 +36,7 @@ class Ahead:
         stages: Of the run.
         request: Of the run.
         run_id: Of the run.
-        basis: What the run is made with.
+        known: What the run is made with.
 
     Attributes:
         begun: Candidates that were given away.
@@ -44,13 +44,13 @@ class Ahead:
     """
 
     def __init__(
-        self, beside: Beside, stages: Stages, request: RunRequest, run_id: str, basis: Basis
+        self, beside: Beside, stages: Stages, request: RunRequest, run_id: str, known: Knowledge
     ) -> None:
         self._beside = beside
         self._stages = stages
         self._request = request
         self._run_id = run_id
-        self._basis = basis
+        self._known = known
         self._pending: dict[tuple[int, str], Pending] = {}
         self._grounded: dict[tuple[int, RepairPlan], GroundingOutcome] = {}
         self.begun = 0
@@ -135,7 +135,8 @@ class Ahead:
                 again = graph.model_copy(update={'iteration': iteration + 1})
                 grounding = self.ground(again, proposal.plan)
                 first = made[0].grounding
-                unfit = why_not(iteration + 1, proposal, grounding, first, best, tried)
+                network = self._known.map(self._request.map_name).network
+                unfit = why_not(iteration + 1, proposal, grounding, first, best, tried, network)
                 if unfit is not None:
                     tried.append(unfit[0])
                     continue
@@ -168,7 +169,9 @@ class Ahead:
 
     def _begin(self, graph: Agsg) -> Pending | None:
         pending = self._beside.begin(
-            Candidate(graph=graph, request=self._request, run_id=self._run_id, basis=self._basis)
+            Candidate(
+                graph=graph, request=self._request, run_id=self._run_id, basis=self._known.basis
+            )
         )
         self.begun += pending is not None
         return pending

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from aurora_core.document import canonical_json
+from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.grounding import GroundingOutcome
@@ -25,6 +26,7 @@ from aurora_core.repair.displaced import still_displaced
 from aurora_core.repair.localize import localize
 from aurora_core.repair.lock import changes_of_the_request
 from aurora_core.repair.neighbourhood import outside
+from aurora_core.repair.unshown import never_shown
 from aurora_core.report.facts import ExecutionFacts
 from aurora_core.report.run_report import ChangeKind, EditReport, MarginChange, RepairReport
 from aurora_core.spec.parameter import Provenance
@@ -87,6 +89,7 @@ def why_not(
     first: GroundingOutcome,
     best: Realisation,
     past: Sequence[Attempt],
+    network: RoadNetwork,
 ) -> tuple[Attempt, str] | None:
     """Return why a grounded proposal is not worth or not allowed a simulation, None when it is.
 
@@ -98,6 +101,7 @@ def why_not(
         best: The realisation that it was proposed after. Its neighbourhood is worked out anew:
             whoever proposes does not say how far he may go.
         past: Everything that was tried.
+        network: Roads of the map.
     """
     graph = grounding.agsg
     if graph is None or graph.grounding is None or first.agsg is None:
@@ -125,6 +129,11 @@ def why_not(
     for told in still_displaced(best.graph, best.verdict, graph):
         return (
             _not_simulated(iteration, proposal, AttemptOutcome.DISPLACED, graph.grounding),
+            told,
+        )
+    for told in never_shown(best.verdict, graph, network):
+        return (
+            _not_simulated(iteration, proposal, AttemptOutcome.UNSHOWN, graph.grounding),
             told,
         )
     return None

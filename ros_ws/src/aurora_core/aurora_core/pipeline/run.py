@@ -286,9 +286,8 @@ class _Run:
         if self.beside is not None and (self.request.model == 'offline' or not is_local):
             if not is_local and tries:
                 self.beside.prepare()
-            basis = self.known.basis
             run_id = self.folder.run_id
-            self.ahead = Ahead(self.beside, self.stages, self.request, run_id, basis)
+            self.ahead = Ahead(self.beside, self.stages, self.request, run_id, self.known)
         try:
             while tries and len(made) <= budget and made[-1].verdict.status in _GO_ON:
                 tries -= 1
@@ -371,7 +370,8 @@ class _Run:
             return False
         again = graph.model_copy(update={'iteration': iteration})
         grounding = self.ground(again, proposal.plan)
-        unfit = why_not(iteration, proposal, grounding, made[0].grounding, best, past)
+        network = self.known.map(self.request.map_name).network
+        unfit = why_not(iteration, proposal, grounding, made[0].grounding, best, past, network)
         if unfit is not None:
             attempt, why = unfit
             past.append(attempt)

@@ -24,8 +24,8 @@ from aurora_core.quantities.view import RunView
 from aurora_core.repair.experience import weight
 from aurora_core.repair.helps import ANCHOR, Help, helps
 from aurora_core.repair.lock import is_movable
-from aurora_core.repair.reach import out_of_reach, waits_to_get_far
-from aurora_core.repair.shown import why_not_seen
+from aurora_core.repair.reach import out_of_reach, reporting_tracker, waits_to_get_far
+from aurora_core.repair.shown import why_not_seen, why_sent_late
 
 # How bad it is that a margin is missing (normalised), and what a mere consequence counts.
 _NO_MARGIN = 1.0
@@ -37,6 +37,9 @@ _EVIDENCE = 6.0
 _LEAST_ROOM, _ROOM = 0.5, 2.0
 # The anchor is one step away from everybody, as the environment is.
 _ANCHOR_STEPS = 1
+# Who tracks what drives off may report only once it has captured it; mostly that is no reason.
+_SELDOM = 0.1
+_BEHIND = 'who tracks from farther behind has less to catch up before it may report'
 
 
 @dataclass(slots=True)
@@ -106,6 +109,13 @@ def localize(
             case.add(share * score * known, row.id, reason, None)
         # A distance that was exceeded is not out of reach.
         proven = {} if waits_far and not in_vain else out_of_reach(agsg, condition)
+        tracker = reporting_tracker(agsg, condition)
+        if tracker is not None and tracker[0] in movable and row.margin is not None:
+            late = None if context is None else why_sent_late(context, condition, *tracker)
+            if late is not None:
+                proven = {tracker[0]: late, **proven}
+            case = cases.setdefault((tracker[0], 1), _Case())
+            case.add(share * _severity(row) * _SELDOM, row.id, f'{_told(row)}: {_BEHIND}', None)
         for name, evidence in proven.items():
             if name in movable:
                 case = cases.setdefault((name, evidence.direction), _Case())

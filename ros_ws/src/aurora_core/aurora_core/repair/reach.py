@@ -20,7 +20,7 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, UavMission
+from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage, UavMission
 from aurora_core.spec.vocabulary import MissionMode, Relation
 
 # Passed, not touched: so much of the distance is aimed at.
@@ -71,6 +71,28 @@ def out_of_reach(agsg: Agsg, condition: Condition) -> dict[str, Evidence]:
         if mission.uav in asked.of:
             found |= _of_mission(mission, asked.reach_m, flat=asked.flat)
     return found
+
+
+def reporting_tracker(agsg: Agsg, condition: Condition) -> tuple[str, Parameter] | None:
+    """Return how far away somebody tracks whose report a condition waits for, with its path.
+
+    Until it has captured its target it may not report.
+
+    Args:
+        agsg: Grounded, as it was executed.
+        condition: Violated.
+    """
+    spec = agsg.realised_spec
+    if condition.quantity is not QuantityName.EVENT_DELAY or condition.op not in ('<', '<='):
+        return None
+    event = next((e for e in spec.events if e.id == condition.arguments.event), None)
+    if event is None or not isinstance(event.action, SendMessage):
+        return None
+    sender = event.action.sender
+    mission = next((m for m in spec.missions if m.uav == sender), None)
+    if mission is None or mission.mode is not MissionMode.TRACK or mission.standoff_m is None:
+        return None
+    return f'missions/{mission.id}/standoff_m', mission.standoff_m
 
 
 def _too_far_behind(

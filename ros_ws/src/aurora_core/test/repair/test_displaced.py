@@ -68,7 +68,9 @@ def test_a_place_where_somebody_stands_as_wrong_as_before_is_not_simulated() -> 
         verdict=verdict,
         engine='local',
     )
-    unfit = why_not(1, proposal, other, first, best, [best.attempt])
+    unfit = why_not(
+        1, proposal, other, first, best, [best.attempt], _KNOWN.map('downtown').network
+    )
     assert unfit is not None
     attempt, why = unfit
     assert attempt.outcome is AttemptOutcome.DISPLACED
