@@ -23,6 +23,8 @@ from aurora_core.spec.parameter import Bound, Parameter, Span, Unit
 
 # A model may round `60 feet` to 18.29 m; what counts is what the prompt says.
 _ROUNDING = 0.01
+# Behind these `up to` is a bound, elsewhere it may be a way up.
+_BOUNDING = (' at', ' of', ' to', ' altitudes', ' heights', ' from')
 _ONE_SIDED = ('altitude', 'standoff', 'link_loss', 'link_latency', 'link_range')
 _ACROSS = ('diameter', 'across', 'wide')
 _BESIDE_CHARACTERS = 16
@@ -297,7 +299,16 @@ class StatedNumbers:
         found = values.explicit(name, replace(measure, value=value, start=start))
         if found.bound is Bound.EXACTLY and name in _ONE_SIDED:
             return values.bounded(found, self._preposition(measure))
+        if found.bound is Bound.AT_MOST and name == 'altitude' and self._leads_up(measure):
+            return found.model_copy(update={'bound': Bound.EXACTLY})
         return found
+
+    def _leads_up(self, measure: Measure) -> bool:
+        """`climbs up to 60 m`: where it goes. `At up to 60 m` it is a bound."""
+        text = self._facts.prompt[: measure.end].lower()
+        before, up_to, _ = text.rpartition('up to ')
+        near = bool(up_to) and len(before) + len(up_to) >= measure.start - 1
+        return near and not before.rstrip().endswith(_BOUNDING)
 
     def _preposition(self, measure: Measure) -> str:
         """Return the meaning of the word before a number (`below 50 m`: below)."""

@@ -7,6 +7,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import pytest
+
 from aurora_core.parsing.llm.check import Judgement
 from aurora_core.spec.parameter import Provenance
 
@@ -149,3 +151,25 @@ def test_number_of_an_unread_clause_is_not_borrowed(judged: Callable[..., Judgem
     span = outcome.spec.missions[0].altitude_m.span
     assert span is not None
     assert span.start == prompt.rindex('80 m')
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'bound'),
+    [
+        ('A drone climbs up to 60 m and hovers there.', 'exactly'),
+        ('Drone up to 60 m, hover there.', 'exactly'),
+        ('A drone hovers there at up to 60 m.', 'at_most'),
+    ],
+)
+def test_a_way_up_is_no_bound(judged: Callable[..., Judgement], prompt: str, bound: str) -> None:
+    uav = {'id': 'uav1', 'quote': 'drone' if 'drone' in prompt else 'Drone'}
+    mission = {
+        'id': 'm1', 'uav': 'uav1', 'mode': 'hover', 'quote': prompt[:-1],
+        'altitude_m': metres(60.0, '60 m'),
+    }  # fmt: skip
+    clauses = [{'quote': prompt[:-1], 'status': 'encoded', 'ids': ['m1']}]
+    reading = {'uavs': [uav], 'missions': [mission], 'clauses': clauses}
+    outcome = judged(reading, prompt).outcome
+    assert outcome is not None
+    assert outcome.spec is not None
+    assert outcome.spec.missions[0].altitude_m.bound.value == bound
