@@ -101,21 +101,22 @@ def standing(spec: ScenarioSpec) -> ScenarioSpec:
     """
 
     def stays(agent: GroundAgent) -> GroundAgent:
-        behaviors = list(agent.behaviors)
-        for k, (before, wait) in enumerate(pairwise(agent.behaviors)):
+        behaviors = list(agent.behaviors[:1])
+        for before, wait in pairwise(agent.behaviors):
             waits = wait.kind is BehaviorKind.WAIT and wait.target in (None, before.target)
-            if not waits or wait.duration_s is None or before.duration_s is not None:
-                continue
+            lasts = wait.duration_s is not None and before.duration_s is None
             here = {'duration_s': wait.duration_s, 'target': before.target}
-            if before.kind is BehaviorKind.STOP and before.target is not None:
-                behaviors[k : k + 2] = [before.model_copy(update=here)]
+            if not waits or not lasts:
+                behaviors.append(wait)
+            elif before.kind is BehaviorKind.STOP and before.target is not None:
+                behaviors[-1] = before.model_copy(update=here)
             elif before.kind in MOVING:
-                stop = {'kind': BehaviorKind.STOP, **here}
-                behaviors[k + 1] = wait.model_copy(update=stop)
+                behaviors.append(wait.model_copy(update={'kind': BehaviorKind.STOP, **here}))
             else:
-                continue
-            return agent.model_copy(update={'behaviors': tuple(behaviors)})
-        return agent
+                behaviors.append(wait)
+        if tuple(behaviors) == agent.behaviors:
+            return agent
+        return agent.model_copy(update={'behaviors': tuple(behaviors)})
 
     agents = tuple(map(stays, spec.agents))
     if agents == spec.agents:

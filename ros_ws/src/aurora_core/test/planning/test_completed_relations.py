@@ -159,3 +159,14 @@ def test_who_waits_after_a_motion_comes_to_rest_for_it(prompt: str, place: str |
     assert (stop.kind, stop.target) == (BehaviorKind.STOP, place)
     assert stop.duration_s is not None
     assert stop.duration_s.value == 5.0
+
+
+def test_every_wait_after_a_motion_is_a_rest() -> None:
+    told = 'A person walks to the crosswalk and waits there for at least 5 s.'
+    read = parse_offline(told, CONTEXT).spec
+    assert read is not None
+    (person,) = read.agents
+    twice = person.model_copy(update={'behaviors': person.behaviors * 2})
+    (agent,) = standing(read.model_copy(update={'agents': (twice,)})).agents
+    kinds = [b.kind for b in agent.behaviors]
+    assert kinds == [BehaviorKind.WALK, BehaviorKind.STOP] * 2
