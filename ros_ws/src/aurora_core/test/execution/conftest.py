@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from flown_missions import DT_S
+from flown_missions import SETTINGS as FLIGHT
 
 from aurora_core.comm.link import LinkSettings, MessageLink
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
@@ -33,7 +35,6 @@ from aurora_core.knowledge.world import (
 )
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.plan import MissionPlan, UavPlan
-from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.ports.random_streams import stream
 from aurora_core.quantities.actions import action_rules
@@ -56,16 +57,6 @@ from aurora_core.spec.vocabulary import AgentType, MissionMode
 from aurora_core.trace.layout import GROUND_WIDTH, UAV_WIDTH, GroundColumn, UavColumn, UavMode
 from aurora_core.trace.records import ScenarioEventKind
 from aurora_core.trace.roster import Roster, RosterEntry
-
-DT_S = 0.05
-FLIGHT = FlightSettings(
-    speed_max_mps=16.5,
-    acceleration_mps2=4.0,
-    climb_mps=4.0,
-    descent_mps=2.5,
-    corner_speed_mps=1.5,
-    position_gain_hz=0.8,
-)
 
 
 @dataclass

@@ -8,18 +8,10 @@ import itertools
 from math import cos, pi, sin, sqrt
 
 import pytest
+from flown_missions import DT_S, SETTINGS
 
-from aurora_core.mission.setpoint import FlightSettings, PursuitReference, RouteReference
+from aurora_core.mission.setpoint import PursuitReference, RouteReference
 
-DT_S = 0.05
-SETTINGS = FlightSettings(
-    speed_max_mps=16.5,
-    acceleration_mps2=4.0,
-    climb_mps=4.0,
-    descent_mps=2.5,
-    corner_speed_mps=1.5,
-    position_gain_hz=0.8,
-)
 EPS = 1e-9
 
 Point3 = tuple[float, float, float]

@@ -8,19 +8,10 @@ from itertools import pairwise
 from math import atan2, cos, degrees, hypot, pi, sin
 
 import pytest
+from flown_missions import DT_S, SETTINGS
 
-from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.mission.turning_offset import TurningOffset
 
-DT_S = 0.05
-SETTINGS = FlightSettings(
-    speed_max_mps=16.5,
-    acceleration_mps2=4.0,
-    climb_mps=4.0,
-    descent_mps=2.5,
-    corner_speed_mps=1.5,
-    position_gain_hz=0.8,
-)
 LEFT = (0.0, 25.0)
 Steps = list[tuple[tuple[float, float], tuple[float, float]]]
 
