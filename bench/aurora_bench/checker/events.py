@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from aurora_bench.checker import braking, limits, uav_actions
@@ -24,7 +25,7 @@ from aurora_bench.checker.phases import ascent_end_tick
 from aurora_bench.checker.triggers import Fired, Instant, fired
 
 # Triggers of a state count from their first time; of happenings any one may be meant.
-HAPPENINGS = ('message_received', 'mission_done', 'event_done', 'arrives')
+HAPPENINGS = ('message_received', 'mission_done', 'event_done', 'event_begun', 'arrives')
 MOST_INSTANTS = 40
 # What a driver also does for traffic or a signal.
 TRAFFIC_ASKS = ('brake', 'stop', 'slow', 'yield', 'accelerate')
@@ -85,7 +86,7 @@ def _happened(case: Case, requirement: Requirement) -> Happened:
             begin, _ = _ready_s(case, requirement, action)
         acted = _act(case, requirement, action, Window(begin, case.scene.end_s, free=True))
         return _became(acted.judged, acted)
-    when = fired(case, trigger, lambda event: _done(case, event))
+    when = fired(case, trigger, partial(_moment, case))
     if when.unclear:
         return Happened(cannot_tell(when.unclear))
     if not when.instants:
@@ -118,7 +119,7 @@ def _rested(
 def trigger_of(case: Case, requirement: Requirement) -> tuple[Instant, ...]:
     """Return when an event was due, by its trigger and delay; none where that is unclear."""
     trigger = requirement.get('trigger') or {}
-    when = fired(case, trigger, lambda event: _done(case, event))
+    when = fired(case, trigger, partial(_moment, case))
     return () if when.unclear else _delayed(requirement, trigger, when.instants)
 
 
@@ -267,8 +268,13 @@ def _is_flown(requirement: Requirement, case: Case, uav: str) -> bool:
     return requirement['kind'] == 'mission' and uav in case.bodies(requirement.get('uav'))
 
 
-def _done(case: Case, event: str) -> Fired:
+def _moment(case: Case, event: str, *, begun: bool) -> Fired:
     found = happened(case, case.annotation.events[event])
+    if begun:
+        if found.start_s is not None:
+            return Fired((Instant(found.start_s, found.start_s),), why=found.judged.why)
+        if found.judged.outcome is Outcome.HOLDS:
+            return Fired(unclear=f'when {event} began is open')
     if found.done_s is not None:
         early = found.done_s if found.done_from_s is None else found.done_from_s
         return Fired((Instant(early, found.done_s),), why=found.judged.why)

@@ -48,18 +48,18 @@ class Fired:
     why: str = ''
 
 
-class DoneTimes(Protocol):
-    """Says when an event was done (the completion of its action)."""
+class EventTimes(Protocol):
+    """Says when an event was done (the completion of its action), or had begun."""
 
-    def __call__(self, event: str) -> Fired:
+    def __call__(self, event: str, *, begun: bool) -> Fired:
         """Return the instants."""
 
 
-def fired(case: Case, trigger: Mapping[str, Any], done: DoneTimes) -> Fired:
+def fired(case: Case, trigger: Mapping[str, Any], moments: EventTimes) -> Fired:
     """Return when a trigger became true (each time again); none when it never did.
 
     Args:
-        done: For triggers that wait for another event.
+        moments: For triggers that wait for another event.
     """
     scene = case.scene
     match trigger.get('on'):
@@ -90,16 +90,16 @@ def fired(case: Case, trigger: Mapping[str, Any], done: DoneTimes) -> Fired:
             return _received(case, trigger)
         case 'speed_below' | 'speed_above':
             return _speed(case, trigger)
-        case 'event_done':
+        case 'event_done' | 'event_begun':
             event = trigger.get('event')
             if not isinstance(event, str) or event not in case.annotation.events:
                 return Fired(unclear=f'it waits for {event!r}, which is no annotated event')
             after = float(trigger.get('after_s', 0.0))
-            finished = done(event)
-            shifted = tuple(
-                Instant(i.early_s + after, i.late_s + after) for i in finished.instants
-            )
-            return Fired(shifted, finished.unclear, f'{event} done, {finished.why}')
+            begun = trigger['on'] == 'event_begun'
+            cause = moments(event, begun=begun)
+            shifted = tuple(Instant(i.early_s + after, i.late_s + after) for i in cause.instants)
+            what = f'{event} {"begun" if begun else "done"}'
+            return Fired(shifted, cause.unclear, f'{what}, {cause.why}')
         case 'behavior_done':
             return _lasted(case, trigger)
         case 'mission_done':

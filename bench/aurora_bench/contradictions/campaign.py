@@ -24,7 +24,7 @@ from aurora_core.outcomes.verdict import Reason
 from aurora_core.pipeline.verification import verify_stage
 from aurora_core.trace.definitions import message_definitions
 from aurora_system_tests.local_runs import run_prompt
-from aurora_system_tests.planted_bugs import Sabotage, SabotagedStages
+from aurora_system_tests.sabotage import Sabotage, SabotagedStages
 
 ALTERED: tuple[Altered, ...] = (*FLIGHTS, *TRAFFIC, *RECORDS)
 SEED = 1

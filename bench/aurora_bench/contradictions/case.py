@@ -11,7 +11,7 @@ from aurora_bench.mutation.mutant import Mutant, mutant
 from aurora_bench.mutation.recording import Recording
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.trace.trace import Trace
-from aurora_system_tests.planted_bugs import Sabotage
+from aurora_system_tests.sabotage import Sabotage
 
 # What an alteration gives: other states and records, or another world.
 Alter = Callable[[Recording], Trace | WorldModel]

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_bench.contradictions.case import Planted
 from aurora_system_tests import planted_contradictions as bugs
-from aurora_system_tests.planted_bugs import Sabotage
+from aurora_system_tests.sabotage import Sabotage
 
 
 def _bug(

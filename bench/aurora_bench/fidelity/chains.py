@@ -136,9 +136,10 @@ def _is_same(one: _Asked, two: _Said, subject: Subject, rule: NumberRule) -> boo
     of_one = replace(rule, requirement=one.of)
     if two.trigger is None:
         is_trigger = one.trigger.on == 'time'
-    elif one.trigger.on == 'event_done':
+    elif one.trigger.on in ('event_done', 'event_begun'):
         is_trigger = (
             isinstance(two.trigger, EventDoneTrigger)
+            and two.trigger.on == one.trigger.on
             and one.trigger.event is not None
             and two.trigger.event in subject.binding.moments_of(one.trigger.event)
         )
@@ -198,7 +199,7 @@ def _said(
         if trigger.at_s.bound is Bound.EXACTLY:
             yield _Said(trigger=None, seconds=trigger.at_s.value + delay_s)
         return
-    if not isinstance(trigger, EventDoneTrigger):
+    if not isinstance(trigger, EventDoneTrigger) or trigger.on != 'event_done':
         yield _Said(trigger=trigger, seconds=delay_s)
         if ascents and isinstance(trigger, AltitudeTrigger):
             for other in spec.events:

@@ -56,6 +56,7 @@ _WORDS: dict[str, str] = {
     'arrives': 'arriv|reach|get',
     'message_received': 'receiv|get|upon|messag', 'speed_below': 'slow|below|drop',
     'speed_above': 'fast|above|exceed', 'event_done': 'after|then|once|later',
+    'event_begun': 'begin|began|start|step',
     'mission_done': 'finish|done|after', 'behavior_done': 'after|then|once|over',
     'send_message': 'warn|alert|messag|msg|inform|tell|report|send',
     'accelerate': 'accelerat', 'start': 'start|leav', 'change_mission': 'follow|hover|then',

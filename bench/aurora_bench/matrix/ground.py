@@ -119,7 +119,7 @@ def _trigger(name: str, body: str, who: str, landmark: str) -> list[Doc] | str:
         case 'speed_below' | 'speed_above':
             limit = {'van1': 5.0, 'ped1': 0.5}[who]
             return [*moving, *up, when({'on': name, 'who': who, 'value_mps': limit}, land)]
-        case 'event_done':
+        case 'event_done' | 'event_begun':
             first: Doc = {'do': 'ascend', 'uav': who, 'altitude_m': 50.0}
             acts = first if flown else {'do': 'stop', 'agent': who}
             e0 = when({'on': 'time', 'at_s': 20.0}, acts, 'e0')

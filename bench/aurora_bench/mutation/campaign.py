@@ -30,7 +30,8 @@ from aurora_core.errors import AuroraError
 from aurora_core.pipeline.verification import verify_stage
 from aurora_core.trace.definitions import message_definitions
 from aurora_system_tests.local_runs import names_of, run_prompt
-from aurora_system_tests.planted_bugs import BY_RECOMPUTATION, Planted, SabotagedStages
+from aurora_system_tests.planted_bugs import BY_RECOMPUTATION, Planted
+from aurora_system_tests.sabotage import SabotagedStages
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -190,7 +190,7 @@ class Trigger(Document):
     on: Literal[
         'distance_below', 'distance_above', 'visible', 'occluded', 'time', 'altitude_reached',
         'arrives', 'message_received', 'speed_below', 'speed_above', 'event_done', 'mission_done',
-        'battery_below', 'headway_below', 'ttc_below', 'behavior_done',
+        'battery_below', 'headway_below', 'ttc_below', 'behavior_done', 'event_begun',
     ]  # fmt: skip
     a: Ref | None = None
     b: Ref | None = None
@@ -225,6 +225,7 @@ FIELDS_OF_TRIGGER: dict[str, frozenset[str]] = {
     'speed_below': frozenset({'who', 'value_mps'}),
     'speed_above': frozenset({'who', 'value_mps'}),
     'event_done': frozenset({'event', 'after_s'}),
+    'event_begun': frozenset({'event', 'after_s'}),
     'behavior_done': frozenset({'who', 'behavior'}),
     'mission_done': frozenset({'uav'}),
     'battery_below': frozenset({'uav', 'value'}),

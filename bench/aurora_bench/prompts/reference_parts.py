@@ -272,7 +272,7 @@ def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
         found |= {'by': names.body(t.by), 'sender': names.one(t.from_)}
     elif t.on in ('speed_below', 'speed_above'):
         found |= {'who': names.body(t.who), 'value_mps': default('value_mps')}
-    elif t.on == 'event_done':
+    elif t.on in ('event_done', 'event_begun'):
         found['event'] = names.moment(t.event or '')
     elif t.on == 'battery_below':
         found['uav'] = names.uav(t.uav)

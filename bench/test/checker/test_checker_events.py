@@ -172,6 +172,18 @@ def test_crossing_is_from_kerb_to_kerb(
     assert stage.says(event_of(AT_20, {'do': 'cross', 'agent': 'ped1'})) == outcome
 
 
+@pytest.mark.parametrize(('brakes', 'outcome'), [(22.0, 'holds'), (28.8, 'does_not')])
+def test_who_brakes_when_somebody_begins_to_cross(stage: Any, brakes: float, outcome: str) -> None:
+    """A person leaves the kerb at 21.5 s and is across at 28.7 s."""
+    _walker(stage, 20.3)
+    stage.drive('car1', 'car', profile_of((0, 15), (brakes, 15), (brakes + 3.0, 0), (60, 0)))
+    crosses = {'id': 'r1', **event_of(AT_20, {'do': 'cross', 'agent': 'ped1'}), 'ref': 'e1'}
+    begun = event_of({'on': 'event_begun', 'event': 'e1'}, does('brake'), ref='e2')
+    assert stage.says(begun, crosses) == outcome
+    done = {**begun, 'trigger': {'on': 'event_done', 'event': 'e1'}}
+    assert stage.says(done, crosses) == ('does_not' if outcome == 'holds' else 'holds')
+
+
 def test_yield_lets_the_other_pass_first(make_stage: Any) -> None:
     near = {'on': 'distance_below', 'a': 'car1', 'b': 'ped1', 'value_m': 30}
     for wait, outcome in ((True, 'holds'), (False, 'does_not')):

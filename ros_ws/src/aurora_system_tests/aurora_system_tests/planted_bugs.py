@@ -6,33 +6,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path as FilePath
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from aurora_cli.installed import installed
-from aurora_cli.local_engine import LocalStages
 from aurora_core.comm.link import MessageLink, Path
 from aurora_core.execution.events import EventRunner, Note
 from aurora_core.execution.observe import Observation
-from aurora_core.execution.plan import Execution
 from aurora_core.execution.scenario_executor import ScenarioExecutor
 from aurora_core.execution.step_output import StepOutput, Stepper
 from aurora_core.mission.machine import MissionMachine, TargetMotion
 from aurora_core.mission.plan import MissionPlan, UavPlan
-from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.verdict import Verdict
-from aurora_core.pipeline.stages import RunRequest
-from aurora_core.pipeline.verification import judge_content, load_bag
-from aurora_core.spec.scenario import DistanceTrigger, Event
+from aurora_core.spec.scenario import DistanceTrigger, Event, EventDoneTrigger
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UavPhase
 from aurora_core.trace.records import LinkEventKind, LinkRecord
+from aurora_system_tests.sabotage import Sabotage
 
 FloatArray = npt.NDArray[np.float64]
-Sabotage = Callable[[ScenarioExecutor], Stepper]
 Machines = Sequence[MissionMachine]
 
 # What the honest executor finds when it is stepped over the states of a run.
@@ -66,30 +58,6 @@ _UNSEEN_TICK = 400
 _AGAIN_TICKS = 40
 
 
-class SabotagedStages(LocalStages):
-    """The local engine with another executor.
-
-    Args:
-        sabotage: Makes it of the honest one.
-    """
-
-    def __init__(self, sabotage: Sabotage) -> None:
-        super().__init__(installed())
-        self._sabotage = sabotage
-
-    def execution(self, agsg: Agsg, request: RunRequest) -> Execution:
-        """Return what is run, with the sabotaged executor."""
-        honest = super().execution(agsg, request)
-        assert isinstance(honest.stepper, ScenarioExecutor)
-        return replace(honest, stepper=self._sabotage(honest.stepper))
-
-    def verify(self, agsg: Agsg, bag: FilePath) -> Verdict:
-        """Judge without the honest executor beside it, which would find every bug at once."""
-        content, recorded = load_bag(bag)
-        self.judged = judge_content(self.known, content, recorded, recompute=False)
-        return self.judged.verdict
-
-
 class _LateRunner(EventRunner):
     """Every trigger a second late."""
 
@@ -113,6 +81,18 @@ class _EarlyRunner(EventRunner):
             farther = dict(value) | {'value': value.value + _EARLY_M}
             trigger = dict(event.trigger) | {'value_m': farther}
             event = Event.model_validate(dict(event) | {'trigger': trigger})
+        return super()._begins(event, tick, dt_s, seen, machines)
+
+
+class _TardyRunner(EventRunner):
+    """Takes the end of what somebody does for its beginning."""
+
+    def _begins(
+        self, event: Event, tick: int, dt_s: float, seen: Observation, machines: Machines
+    ) -> bool:
+        if isinstance(event.trigger, EventDoneTrigger):
+            done = dict(event.trigger) | {'on': 'event_done'}
+            event = Event.model_validate(dict(event) | {'trigger': done})
         return super()._begins(event, tick, dt_s, seen, machines)
 
 
@@ -467,6 +447,12 @@ PLANTED = (
         'A van waits for 14 seconds. A drone hovers at 30 meters for 10 seconds.',
         _half_the_time,
         'condition:van1.wait',
+    ),
+    _planted(
+        'waits for the other kerb',
+        'When a pedestrian steps onto the road, the ego car brakes.',
+        with_runner(_TardyRunner),
+        'condition:e2.within',
     ),
     _planted(
         'goes on before the time is over',

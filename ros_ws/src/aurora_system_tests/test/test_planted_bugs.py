@@ -16,8 +16,8 @@ from aurora_system_tests.planted_bugs import (
     BY_RECOMPUTATION,
     PLANTED,
     Planted,
-    SabotagedStages,
 )
+from aurora_system_tests.sabotage import SabotagedStages
 
 
 @pytest.mark.parametrize('planted', PLANTED, ids=lambda planted: planted.name)

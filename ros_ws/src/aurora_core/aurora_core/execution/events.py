@@ -13,7 +13,12 @@ from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.lasting import Lasting
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import BatteryRule, Progress, holds
-from aurora_core.execution.untold import heard_before, slowed_later
+from aurora_core.execution.untold import (
+    ON_THE_MOVE_MPS,
+    heard_before,
+    least_mps,
+    slowed_later,
+)
 from aurora_core.execution.ways import Ways
 from aurora_core.execution.yielding import Yielding
 from aurora_core.mission.machine import MissionMachine
@@ -49,12 +54,6 @@ from aurora_core.trace.records import ScenarioEventKind
 from aurora_core.trace.roster import Roster
 
 Note = Callable[[int, ScenarioEventKind, str, str], None]
-
-# Speed from which an agent can be seen to brake or stop (m/s).
-ON_THE_MOVE_MPS = 5.0
-
-# Loss of speed that shows as slowing down (m/s).
-_SHOWS_MPS = 2.5
 
 # Speed below which braking is over before it shows (m/s).
 _BRAKES_FROM_MPS = 1.0
@@ -255,6 +254,8 @@ class EventRunner:
         """Note that an action was ordered; one that gets somewhere is not complete yet."""
         action = state.event.action
         state.acted = True
+        if not isinstance(action, AgentAction) or action.do != 'cross':
+            self._progress.begun_tick[state.event.id] = tick + shows_after(state.event)
         speed_mps = None
         if isinstance(action, AgentAction) and takes_time(action):
             speed_mps = seen.speed_mps(action.agent)
@@ -301,6 +302,8 @@ class EventRunner:
             return
         if action.do == 'cross':
             complete = has_crossed(state, action.agent, seen)
+            if state.stepped_on is not None:
+                self._progress.begun_tick.setdefault(state.event.id, tick)
         elif state.lane is not None:
             row = self._roster.agent_index(action.agent)
             complete = row is not None and self._lanes.is_over(row, state.lane, seen, action.side)
@@ -385,7 +388,7 @@ class EventRunner:
             # It stops at its place by itself; that it stands there is the event.
             self._moved |= {row} if speed_mps >= ON_THE_MOVE_MPS else set()
             return row in self._moved and speed_mps < self._rules.stop_mps
-        return speed_mps >= _least_mps(event.action) and self._ways.all_driven()
+        return speed_mps >= least_mps(event.action) and self._ways.all_driven()
 
     def _allowed(
         self, event: Event, seen: Observation, machines: Sequence[MissionMachine]
@@ -480,13 +483,6 @@ class EventRunner:
         if action.do in BRAKING:
             commands = [*self._braking.commands(row, action), *commands]
         return commands
-
-
-def _least_mps(action: AgentAction) -> float:
-    """Return the speed from which what an agent does on the move can be seen."""
-    if action.do not in ('slow', 'brake') or action.value_mps is None:
-        return ON_THE_MOVE_MPS
-    return max(ON_THE_MOVE_MPS, action.value_mps.value + _SHOWS_MPS)
 
 
 def _order(machine: MissionMachine, action: UavAction) -> None:

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aurora_core.execution.events import ON_THE_MOVE_MPS
 from aurora_core.execution.observe import Observation
+from aurora_core.execution.untold import ON_THE_MOVE_MPS
 from aurora_core.execution.ways import Ways
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SpeedTrigger

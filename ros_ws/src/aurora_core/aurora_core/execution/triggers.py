@@ -12,7 +12,7 @@ from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities.actions import APART_M, CLIMBED_M
 from aurora_core.quantities.doing import DoingWatch
 from aurora_core.quantities.motion import battery
-from aurora_core.quantities.triggers import arrives_on_sidewalk, needs_change
+from aurora_core.quantities.state_triggers import arrives_on_sidewalk, needs_change
 from aurora_core.spec.scenario import (
     AltitudeTrigger,
     ArrivalTrigger,
@@ -50,6 +50,7 @@ class Progress:
     arrival_m: float  # an agent this close to a place is there
     endurance_s: float = inf  # of a full battery
     airborne_ticks: dict[str, int] = field(default_factory=dict)  # by UAV id
+    begun_tick: dict[str, int] = field(default_factory=dict)  # its action has set in
     done_tick: dict[str, int] = field(default_factory=dict)
     received: set[tuple[str, str]] = field(default_factory=set)  # (receiver, sender)
     missions_done: set[str] = field(default_factory=set)  # UAV ids
@@ -70,7 +71,8 @@ def holds(
     if isinstance(trigger, TimeTrigger):
         return tick * dt_s >= trigger.at_s.value - 1e-9
     if isinstance(trigger, EventDoneTrigger):
-        done = progress.done_tick.get(trigger.event)
+        begun = trigger.on == 'event_begun'
+        done = (progress.begun_tick if begun else progress.done_tick).get(trigger.event)
         wait = 0.0 if trigger.after_s is None else trigger.after_s.value
         wait = max(wait, progress.rests_s.get(event.id, 0.0))
         return done is not None and (tick - done) * dt_s >= wait - 1e-9

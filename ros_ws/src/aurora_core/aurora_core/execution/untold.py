@@ -18,6 +18,19 @@ from aurora_core.spec.scenario import (
 )
 from aurora_core.spec.vocabulary import AgentType
 
+# Speed from which an agent can be seen to brake or stop (m/s).
+ON_THE_MOVE_MPS = 5.0
+
+# Loss of speed that shows as slowing down (m/s).
+_SHOWS_MPS = 2.5
+
+
+def least_mps(action: AgentAction) -> float:
+    """Return the speed from which what an agent does on the move can be seen."""
+    if action.do not in ('slow', 'brake') or action.value_mps is None:
+        return ON_THE_MOVE_MPS
+    return max(ON_THE_MOVE_MPS, action.value_mps.value + _SHOWS_MPS)
+
 
 def heard_before(spec: ScenarioSpec) -> dict[str, frozenset[tuple[str, str]]]:
     """Return by event without a cause the messages (receiver, sender) that it comes after.
@@ -74,7 +87,7 @@ def slowed_later(spec: ScenarioSpec) -> dict[str, frozenset[str]]:
 
 
 def _follows(event: Event, before: Event) -> bool:
-    """Tell whether an event is the end of another one, or the receipt of its message."""
+    """Tell whether an event waits for another one, or for the receipt of its message."""
     trigger, sent = event.trigger, before.action
     if isinstance(trigger, EventDoneTrigger):
         return trigger.event == before.id

@@ -16,9 +16,11 @@ from aurora_core.spec.doing import doing
 from aurora_core.spec.events import (
     AgentAction,
     BehaviorDoneTrigger,
+    EventDoneTrigger,
     MessageTrigger,
     MissionDoneTrigger,
     SendMessage,
+    shows_its_beginning,
 )
 from aurora_core.spec.prohibitions import ForbiddenAgent, ForbiddenBehavior
 from aurora_core.spec.quantity import QuantityName
@@ -55,6 +57,7 @@ def check_static(spec: ScenarioSpec) -> Iterator[StaticFinding]:
     """Yield what of a specification does not fit together, with what would mend it."""
     yield from _conditions(spec)
     yield from _messages(spec)
+    yield from _beginnings(spec)
     yield from _behaviors(spec)
     yield from _missions(spec)
     yield from _scene(spec)
@@ -102,6 +105,21 @@ def _messages(spec: ScenarioSpec) -> Iterator[StaticFinding]:
                 field=f'events/{event.id}/trigger',
                 relation=f'{trigger.by} waits for a message that nobody sends',
                 mend=f'add an event that sends one to {trigger.by}',
+                span=event.span,
+            )
+
+
+def _beginnings(spec: ScenarioSpec) -> Iterator[StaticFinding]:
+    actions = {e.id: e.action for e in spec.events}
+    for event in spec.events:
+        trigger = event.trigger
+        if not isinstance(trigger, EventDoneTrigger) or trigger.on != 'event_begun':
+            continue
+        if not shows_its_beginning(actions[trigger.event]):
+            yield StaticFinding(
+                field=f'events/{event.id}/trigger/event',
+                relation=f'nobody sees when {trigger.event} begins',
+                mend='wait until it is done (event_done)',
                 span=event.span,
             )
 

@@ -26,8 +26,9 @@ from aurora_core.quantities.phases import (
 )
 from aurora_core.quantities.routes import AlongRoute, along_route
 from aurora_core.quantities.sight import SightSeries, sight_series
+from aurora_core.quantities.state_triggers import EventRules
 from aurora_core.quantities.ticks import first_tick, whole_ticks
-from aurora_core.quantities.triggers import EventRules, EventTimes
+from aurora_core.quantities.triggers import EventTimes
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.scenario import Link, ScenarioSpec
 from aurora_core.trace.layout import UavCommandColumn, UavPhase

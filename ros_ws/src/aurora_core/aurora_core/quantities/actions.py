@@ -98,6 +98,8 @@ def rest_s(events: Sequence[Event], event: Event, rules: ActionRules | None) -> 
     trigger, action = event.trigger, event.action
     if rules is None or not isinstance(trigger, EventDoneTrigger) or trigger.after_s is not None:
         return 0.0
+    if trigger.on == 'event_begun':
+        return 0.0
     if not isinstance(action, AgentAction) or action.do not in _GOES_ON:
         return 0.0
     cause = next((e.action for e in events if e.id == trigger.event), None)

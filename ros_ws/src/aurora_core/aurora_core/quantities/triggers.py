@@ -9,7 +9,6 @@ of UAVs count from the end of their ascent on.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,10 +18,8 @@ from aurora_core.geometry.kernel import norm2_array
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities import motion
 from aurora_core.quantities.actions import (
-    APART_M,
     CLIMBED_M,
     CROSSED_M,
-    ActionRules,
     completion_index,
     holds_already,
     rest_s,
@@ -31,68 +28,41 @@ from aurora_core.quantities.actions import (
 )
 from aurora_core.quantities.braking import braking_mps2
 from aurora_core.quantities.doing import done_tick
-from aurora_core.quantities.headway import MEASURES, pair_series
 from aurora_core.quantities.lane_changes import (
     LANE_CHANGE_S,
     change_begins,
     change_is_over,
 )
-from aurora_core.quantities.ledger import LinkModel, messages
-from aurora_core.quantities.phases import FlightPhases
-from aurora_core.quantities.sight import sight_series
+from aurora_core.quantities.ledger import messages
+from aurora_core.quantities.state_triggers import (
+    EventRules,
+    StateTrigger,
+    needs_change,
+    trigger_series,
+)
 from aurora_core.quantities.ticks import first_tick, onset_tick, whole_ticks
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.scenario import (
     AgentAction,
-    AltitudeTrigger,
-    ArrivalTrigger,
-    BatteryTrigger,
     BehaviorDoneTrigger,
     DistanceTrigger,
     Event,
     EventDoneTrigger,
-    HeadwayTrigger,
     MessageTrigger,
     MissionDoneTrigger,
     ScenarioSpec,
     SendMessage,
-    SpeedTrigger,
-    TimeTrigger,
     UavAction,
     VisibilityTrigger,
 )
-from aurora_core.spec.vocabulary import MissionMode, Place
+from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
-
-StateTrigger = (
-    DistanceTrigger
-    | HeadwayTrigger
-    | TimeTrigger
-    | AltitudeTrigger
-    | VisibilityTrigger
-    | SpeedTrigger
-    | ArrivalTrigger
-    | BatteryTrigger
-)
 
 BoolArray = npt.NDArray[np.bool_]
 
 # A UAV that climbs this fast ascends (m/s).
 CLIMBS_MPS = 0.5
-
-# Triggers that ask for a change.
-_CHANGES = frozenset({'distance_above', 'speed_below', 'occluded'})
-
-
-def needs_change(trigger: StateTrigger) -> bool:
-    """Tell whether the predicate of a trigger must have been false at an earlier tick."""
-    return trigger.on in _CHANGES or arrives_on_sidewalk(trigger)
-
-
-def arrives_on_sidewalk(trigger: StateTrigger) -> bool:
-    """Tell whether a trigger waits for somebody to step onto a sidewalk: any, it has no point."""
-    return isinstance(trigger, ArrivalTrigger) and trigger.place == Place.SIDEWALK
 
 
 def _is_near_the_sender(event: Event) -> bool:
@@ -105,32 +75,6 @@ def _is_near_the_sender(event: Event) -> bool:
     if not isinstance(trigger, DistanceTrigger):
         return False
     return trigger.on == 'distance_below' and action.sender in (trigger.a, trigger.b)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EventRules:
-    """What the moments of events are measured with.
-
-    Attributes:
-        brake_mps2: Loss of speed that counts as braking.
-        arrival_m: Distance from a place at which an agent is there.
-        onset_mps2: Change of speed with which slowing down or speeding up begins.
-        actions: When the actions of ground agents are complete; None where no event is judged.
-        flights: Phases of each UAV's flight.
-        captured: Gives the tick at which a UAV has captured its first mission, or the one of an
-            id; None if never.
-        links: Links of the specification.
-        touchdown_m: Height below which a UAV that reports landed is down.
-    """
-
-    brake_mps2: float
-    onset_mps2: float
-    arrival_m: float
-    actions: ActionRules | None
-    flights: dict[str, FlightPhases]
-    captured: Callable[[str, str | None], int | None]
-    links: tuple[LinkModel, ...]
-    touchdown_m: float = 0.0
 
 
 @dataclass(slots=True)
@@ -236,6 +180,24 @@ class EventTimes:
     def _on_carriageway(self, agent: str) -> BoolArray:
         points = self.view.reference(agent)[:, :2]
         return self.view.geometry.surfaces(SurfaceKind.DRIVING).contains(points)
+
+    def begun_tick(self, event_id: str) -> int | None:
+        """Return the tick at which the action of an event sets in, None when it never does.
+
+        Who crosses has begun with the first step onto the carriageway.
+        """
+        event, due = self.event(event_id), self.due_tick(event_id)
+        if event is None or (event.trigger is not None and due is None):
+            return None
+        action = event.action
+        if isinstance(action, AgentAction) and action.do == 'cross':
+            return first_tick(self._steps_on(action.agent), due or 0)
+        return self.action_tick(event_id, due or 0)
+
+    def _steps_on(self, person: str) -> BoolArray:
+        """Return where a person steps onto the carriageway, (T,)."""
+        on = self._on_carriageway(person)
+        return np.concatenate(([False], on[1:] & ~on[:-1]))
 
     def _over_the_street(self, person: str, begins: int) -> int | None:
         """Return when a person has left the carriageway that it stepped onto."""
@@ -350,8 +312,7 @@ class EventTimes:
             return onset_tick(gain >= self.rules.onset_mps2, start, begins_there=begins_there)
         if action.do == 'change_lane':
             return change_begins(self.view, body, start, action.side)
-        on = self._on_carriageway(action.agent)
-        steps = first_tick(np.concatenate(([False], on[1:] & ~on[:-1])), start)
+        steps = first_tick(self._steps_on(action.agent), start)
         if steps is None or rules is None:
             return steps
         # Who stood at the kerb begins to cross with the first step towards the carriageway.
@@ -385,7 +346,8 @@ class EventTimes:
         view = self.view
         match trigger:
             case EventDoneTrigger():
-                done = self.done_tick(trigger.event)
+                begun = trigger.on == 'event_begun'
+                done = (self.begun_tick if begun else self.done_tick)(trigger.event)
                 if done is None:
                     return None
                 after_s = trigger.after_s.value if trigger.after_s is not None else 0.0
@@ -440,60 +402,3 @@ class EventTimes:
         sight = trigger_series(self.view, seen, self.rules)
         assert sight is not None  # an observer and a target are no places
         return sight
-
-
-def trigger_series(
-    view: RunView,
-    trigger: StateTrigger,
-    rules: EventRules,
-) -> BoolArray | None:
-    """Return where the predicate of a state trigger holds, (T,); None for an unknown place."""
-    match trigger:
-        case DistanceTrigger():
-            apart = motion.distance(view, trigger.a, trigger.b)
-            near = trigger.on == 'distance_below'
-            limit_m = trigger.value_m.value
-            mask = apart <= limit_m if near else apart >= limit_m + APART_M
-            return mask & view.present(trigger.a) & view.present(trigger.b)
-        case HeadwayTrigger():
-            seconds = pair_series(view, MEASURES[trigger.on], trigger.a, trigger.b)
-            return seconds <= trigger.value_s.value
-        case TimeTrigger():
-            first = whole_ticks(trigger.at_s.value, view.dt_s)
-            return np.arange(view.ticks) >= first
-        case AltitudeTrigger():
-            reached_m = trigger.value_m.value - CLIMBED_M
-            return motion.altitude(view, view.body(trigger.uav)) >= reached_m
-        case VisibilityTrigger():
-            sight = sight_series(view, trigger.observer, trigger.target).visible
-            mask = sight if trigger.on == 'visible' else ~sight
-            if not view.body(trigger.observer).is_uav:
-                return mask
-            flight = rules.flights.get(trigger.observer)
-            ready = None if flight is None else flight.ascent_end_tick
-            if ready is None:
-                return np.zeros(view.ticks, dtype=np.bool_)
-            # Before the ascent has ended neither "visible" nor "occluded" can have been seen, and
-            # on its way home a UAV has stopped looking.
-            counted = np.arange(view.ticks) >= ready
-            if flight is not None and flight.landing_tick is not None:
-                counted &= np.arange(view.ticks) < flight.landing_tick
-            return mask & counted
-        case SpeedTrigger():
-            values = motion.speed(view, view.body(trigger.who))
-            below = trigger.on == 'speed_below'
-            limit_mps = trigger.value_mps.value
-            mask = values <= limit_mps if below else values >= limit_mps
-            return mask & view.present(trigger.who)
-        case BatteryTrigger():
-            left = motion.battery_series(view, view.body(trigger.uav), rules.touchdown_m)
-            return left < trigger.value.value
-        case ArrivalTrigger() if arrives_on_sidewalk(trigger):
-            points = view.reference(trigger.who)[:, :2]
-            on = view.geometry.surfaces(SurfaceKind.SIDEWALK).contains(points)
-            return on & view.present(trigger.who)
-        case ArrivalTrigger():
-            if view.geometry.place_point(trigger.place) is None:
-                return None
-            apart = motion.distance(view, trigger.who, trigger.place, on_road=True)
-            return (apart <= rules.arrival_m) & view.present(trigger.who)

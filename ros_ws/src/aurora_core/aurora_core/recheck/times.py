@@ -89,6 +89,9 @@ def _trigger(
     elif on == 'event_done':
         first, last = _seconds(request, trigger.get('after_s'))
         yield Derived(Kind.CAUSE, of, f'events/{trigger["event"]}/done', at, first, last)
+    elif on == 'event_begun':
+        first, _ = _seconds(request, trigger.get('after_s'))
+        yield Derived(Kind.CAUSE, of, f'events/{trigger["event"]}', at, first)
     elif on == 'altitude_reached':
         height = left_open(trigger['value_m'], 0.0)[0]
         up_s = height / request.limit('uav_climb_max_mps')

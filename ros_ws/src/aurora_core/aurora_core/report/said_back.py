@@ -318,8 +318,9 @@ def _trigger(trigger: Trigger) -> str:
         case SpeedTrigger(on=on, who=who, value_mps=value):
             over = 'falls below' if on == 'speed_below' else 'exceeds'
             return f'the speed of {who} {over} {_number(value)}'
-        case EventDoneTrigger(event=event, after_s=after):
-            return f'{event} is done' + (f' and {_number(after)} have passed' if after else '')
+        case EventDoneTrigger(on=on, event=event, after_s=after):
+            has = 'is done' if on == 'event_done' else 'has begun'
+            return f'{event} {has}' + (f' and {_number(after)} have passed' if after else '')
         case BehaviorDoneTrigger(who=who, behavior=kind):
             return f'the stated time of {who} to {kind.value.replace("_", " ")} is over'
         case BatteryTrigger(uav=uav, value=value):

@@ -80,9 +80,9 @@ class SpeedTrigger(Element):
 
 
 class EventDoneTrigger(Element):
-    """Another event is done, plus a delay."""
+    """Another event is done, or its action has set in (`event_begun`), plus a delay."""
 
-    on: Literal['event_done']
+    on: Literal['event_done', 'event_begun']
     event: Id
     after_s: Parameter | None = None
 
@@ -247,6 +247,16 @@ def comes_to_an_end(action: EventAction | None) -> bool:
         return action is not None
     stated = isinstance(action, AgentAction) and action.value_mps is not None
     return stated and action.do in _END_WITH_A_NUMBER
+
+
+def shows_its_beginning(action: EventAction | None) -> bool:
+    """Tell whether the record shows when an action sets in, so that others can wait for that.
+
+    That a lane is changed is known once the vehicle is on the other one.
+    """
+    if isinstance(action, AgentAction):
+        return action.do != 'change_lane'
+    return isinstance(action, UavAction) and action.do != 'change_mission'
 
 
 # After these an agent that is to start again has stood still before.

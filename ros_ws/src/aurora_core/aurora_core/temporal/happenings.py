@@ -208,9 +208,9 @@ def _at_time(basis: Basis, event: Event, cause: TimeTrigger) -> Iterator[Link]:
 def _after(basis: Basis, event: Event, cause: EventDoneTrigger) -> Iterator[Link]:
     of = f'events/{event.id}'
     least_s, most_s = basis.window_s(cause.after_s)
-    awaits = partial(
-        Link, earlier=done(cause.event), later=trigger(event.id), kind=BoundKind.CAUSE, of=of
-    )
+    begun = cause.on == 'event_begun'
+    first = moment(cause.event) if begun else done(cause.event)
+    awaits = partial(Link, earlier=first, later=trigger(event.id), kind=BoundKind.CAUSE, of=of)
     stated = ((f'{of}/trigger/event', cause.event), (f'{of}/trigger/after_s', cause.after_s))
     yield awaits(
         least_s=least_s,
@@ -218,7 +218,8 @@ def _after(basis: Basis, event: Event, cause: EventDoneTrigger) -> Iterator[Link
         stated=stated,
         tolerances=('duration_s',),
     )
-    if math.isfinite(most_s):
+    # A walk to the kerb shows before the crossing has begun: no latest time follows from that.
+    if math.isfinite(most_s) and not begun:
         yield awaits(
             most_s=most_s,
             words=f'{event.id} is triggered within {most_s:g} s of the end of {cause.event}',

@@ -232,12 +232,13 @@ def test_a_crossing_is_done_at_the_other_kerb(stage: Build) -> None:
     events = (
         event_of(NOW, AgentAction(do='cross', agent='ego')),
         event_of(EventDoneTrigger(on='event_done', event='e1'), id='e2'),
+        event_of(EventDoneTrigger(on='event_begun', event='e1'), id='e3'),
     )
     scene = stage(events=events, tracks={}, street_x_m=(5.0, 15.0))
     # On the way to the crossing it steps over the kerb and back.
     for x in (0.0, 5.1, 4.9, 6.0, 14.0, 16.0, 17.0):
         scene.put('ego', x, speed=1.4).step()
-    assert triggered(scene) == [(0, 'e1'), (5, 'e2')]
+    assert triggered(scene) == [(0, 'e1'), (1, 'e3'), (5, 'e2')]
 
 
 def test_message_received(stage: Build, parameter: Make) -> None:
@@ -297,12 +298,13 @@ def test_a_chain_goes_on_once_the_action_is_complete(
     events = (
         event_of(TimeTrigger(on='time', at_s=parameter(1.0, 's')), action, id='e1'),
         event_of(EventDoneTrigger(on='event_done', event='e1'), id='e2'),
+        event_of(EventDoneTrigger(on='event_begun', event='e1'), id='e3'),
     )
     scene = stage(events=events)
     scene.put('ego', 0.0, speed=before_mps).step(40)
-    assert triggered(scene) == [(20, 'e1')]
+    assert triggered(scene) == [(20, 'e1'), (21, 'e3')]
     scene.put('ego', 0.0, speed=done_mps).step(10)
-    assert triggered(scene) == [(20, 'e1'), (40, 'e2')]
+    assert triggered(scene) == [(20, 'e1'), (21, 'e3'), (40, 'e2')]
 
 
 def test_mission_done(stage: Build) -> None:

@@ -20,7 +20,8 @@ from aurora_core.quantities.phases import (
     mission_phase,
     missions_end_tick,
 )
-from aurora_core.quantities.triggers import EventRules, EventTimes
+from aurora_core.quantities.state_triggers import EventRules
+from aurora_core.quantities.triggers import EventTimes
 from aurora_core.quantities.view import RunView
 from aurora_core.quantities.waypoints import cruising, legs, passages, pattern_centre
 from aurora_core.spec.parameter import Unit

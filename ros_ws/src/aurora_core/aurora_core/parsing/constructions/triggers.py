@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
@@ -13,11 +15,13 @@ from aurora_core.parsing.constructions.messages import TELLING, message
 from aurora_core.parsing.constructions.missions import mission
 from aurora_core.parsing.constructions.states import noun_places
 from aurora_core.parsing.criteria.causes import told_cause, who_flew, who_moves
+from aurora_core.parsing.criteria.onsets import sets_in
 from aurora_core.parsing.criteria.thresholds import threshold
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import anything
 from aurora_core.parsing.scene import Entity
+from aurora_core.spec.events import shows_its_beginning
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -322,13 +326,16 @@ def _behavior(frame: Frame) -> EventDoneTrigger | None:
     action = agent_action(frame)
     if action is None:
         return None
+    on: Literal['event_done', 'event_begun'] = 'event_begun' if sets_in(frame) else 'event_done'
+    if not shows_its_beginning(action):
+        on = 'event_done'
     for event in scene.events:
         if event.action == action or _is_same_act(event.action, action):
-            return EventDoneTrigger(on='event_done', event=event.id)
+            return EventDoneTrigger(on=on, event=event.id)
     made = scene.add_event(action, frame.span)
     made.clauses.append(scene.clause_number)
     scene.became(made.id)
-    return EventDoneTrigger(on='event_done', event=made.id)
+    return EventDoneTrigger(on=on, event=made.id)
 
 
 def _is_same_act(told: EventAction | None, again: AgentAction) -> bool:

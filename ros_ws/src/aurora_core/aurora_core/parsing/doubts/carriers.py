@@ -401,9 +401,11 @@ def _handed_over(spec: ScenarioSpec, clause: Clause) -> bool:
 
 
 def _not_done(spec: ScenarioSpec, clause: Clause) -> bool:
-    """No deed of the clause that something waits for the end of."""
-    awaited = {e.trigger.event for e in spec.events if isinstance(e.trigger, EventDoneTrigger)}
-    return not any(e.id in awaited for e in spec.events if e.id in clause.ids)
+    """No deed of the clause that something waits for the end of; a message is sent at once."""
+    triggers = [e.trigger for e in spec.events if isinstance(e.trigger, EventDoneTrigger)]
+    awaited = {t.event for t in triggers if t.on == 'event_done'}
+    deeds = [e for e in spec.events if not isinstance(e.action, SendMessage)]
+    return not any(e.id in awaited for e in deeds if e.id in clause.ids)
 
 
 def _drift(spec: ScenarioSpec, clause: Clause) -> bool:

@@ -34,7 +34,7 @@ from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
 
 # Whose distance is that of t = 0: where one starts, how far ahead a van is that cuts in.
 _FROM_HERE = frozenset({'change_lane', 'start'})
-_ONCE = MOMENTS | {'ascend', 'descend', 'land'}
+_ONCE = MOMENTS | {'ascend', 'descend', 'land', 'step_onto'}
 # What a driver does for a while, and a flight does not.
 _STANDS = frozenset({'park', 'wait'})
 _NEARS = frozenset({'approach', 'reach'})

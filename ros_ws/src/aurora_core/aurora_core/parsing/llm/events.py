@@ -46,6 +46,7 @@ _TRIGGERS: dict[str, tuple[str, str, str, str]] = {
     'speed_below': ('who', '', 'value_mps', 'trigger_speed'),
     'speed_above': ('who', '', 'value_mps', 'trigger_speed'),
     'event_done': ('', 'event', 'after_s', 'trigger_time'),
+    'event_begun': ('', 'event', 'after_s', 'trigger_time'),
     'behavior_done': ('who', '', '', 'delay'),
     'mission_done': ('uav', '', '', 'delay'),
     'battery_below': ('uav', '', 'value', 'condition_ratio'),

@@ -154,6 +154,7 @@ class TriggerReading(Document):
         'speed_below',
         'speed_above',
         'event_done',
+        'event_begun',
         'behavior_done',
         'mission_done',
         'battery_below',
