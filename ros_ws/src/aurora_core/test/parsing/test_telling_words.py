@@ -144,6 +144,15 @@ def _unread(prompt: str) -> list[str]:
         ('A drone flies to City Hall, turns around and lands.', 'turns around'),
         ('The ego never exceeds 30 km/h while the drone is within 50 m.', 'while the drone'),
         ('The bus may stop at the crosswalk, yet it yields to the pedestrian.', 'may'),
+        ('A jogger runs through the park while a drone hovers there.', 'through the park'),
+        ('A cyclist turns left in front of the ego car; the ego car brakes.', 'in front of'),
+        ('A drone hovers over City Hall while a taxi approaches City Hall.', 'taxi approaches'),
+        ('A drone climbs to 60 m when it loses sight of the bus it tracks.', '60 m'),
+        (
+            'Drone A tracks the ego car; drone B stays 25 m away from drone A and circles the'
+            ' market.',
+            'the market',
+        ),
         ('When the bus starts to change lanes, the van brakes.', 'starts to change'),
         ('The ego brakes as a pedestrian steps off the curb.', 'as a pedestrian steps off'),
         ('When a pedestrian steps off the sidewalk, the bus brakes.', 'steps off the sidewalk'),

@@ -21,10 +21,14 @@ def sets_in(frame: Frame) -> bool:
     if frame.key == 'step_onto':
         return True
     turns = shipped_lexicon().turns
-    told = frame.scene.prompt[frame.piece.start : frame.verb.end].lower()
-    if turns['begins'] & set(told.split()[:-1]):
+    prompt, verb = frame.scene.prompt, frame.verb
+    told = prompt[frame.piece.start : verb.end].lower()
+    words = prompt[frame.piece.start : verb.start].lower().split()
+    said = prompt[verb.start : verb.end].lower().split()
+    before = (words[:-1] if words[-1:] == ['to'] else words)[-1:]
+    if turns['begins'] & {*before, *said[:-1]}:
         return True
     meanwhile = any(told.startswith(f'{word} ') for word in turns['meanwhile'])
     under_way = re.search(rf'\b(?:{"|".join(sorted(turns["is"]))}) \w+ing\b', told)
-    simple = frame.verb.form in (VerbForm.BASE, VerbForm.THIRD)
+    simple = verb.form in (VerbForm.BASE, VerbForm.THIRD)
     return frame.key == 'cross' and meanwhile and (simple or under_way is not None)

@@ -22,6 +22,7 @@ from aurora_core.parsing.doubts.clauses import (
 )
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.reference import is_place
 from aurora_core.spec.scenario import (
     AltitudeTrigger,
     Clause,
@@ -52,6 +53,8 @@ _REFUSED_M = 5.0  # a least separation that limits usually ask
 _APART = re.compile(r'\b(?:apart|away|close|closer|farther|further|near|nearer)\b')
 _STAYS = ('holds', 'keeps', 'remains', 'stays', 'waits')
 _AS_LONG = re.compile(r'(?:while|(?:as|so) long as)\b')
+# What a driver has done before a UAV is up.
+_PASSES = frozenset({'approach', 'change_lane', 'overtake', 'reach', 'turn_left', 'turn_right'})
 # Behind these a verb has the subject of the one before.
 _JOINS = frozenset({AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN})
 
@@ -243,6 +246,62 @@ def while_it_stops(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
         asked = any(c.id in clause.ids for c in spec.conditions)
         if (asked or verbs[0].key in MOMENTS) and _missions(spec, verbs[-1]):
             yield over(sentence[0], sentence[0]) if asked else over(sentence[0], verbs[0])
+
+
+def passed_before_a_hover(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`hovers over a junction while a truck approaches it`: that one is past when it hovers."""
+    places = {
+        m.id
+        for m in spec.missions
+        if m.mode is MissionMode.HOVER and m.target is not None and is_place(m.target)
+    }
+    for sentence in sentences(atoms):
+        for k, atom in enumerate(sentence):
+            if atom.kind is not AtomKind.SUBORDINATOR or atom.key != 'while':
+                continue
+            verbs = [a for a in sentence[:k] if a.kind is AtomKind.VERB][-1:]
+            behind = [a for a in sentence[k + 1 :] if a.kind is AtomKind.VERB]
+            verbs += behind[: 1 if k else 2]
+            hovers = any(places & _missions(spec, a) for a in verbs)
+            for verb in verbs:
+                clause = clause_of(spec, verb) if hovers and verb.key in _PASSES else None
+                drivers = clause is not None and {a.id for a in spec.agents} & set(clause.ids)
+                if clause is not None and drivers and not events_in(spec, clause):
+                    yield clause.span
+
+
+def flown_by_both(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`drone B stays 25 m away from drone A and circles the market`: not drone A as well."""
+    flown = {m.id: m.uav for m in spec.missions}
+    for sentence in sentences(atoms):
+        for k, atom in enumerate(sentence):
+            clause = clause_of(spec, atom) if atom.kind is AtomKind.VERB else None
+            joined = k > 0 and sentence[k - 1].kind in _JOINS
+            if (
+                clause is None
+                or not joined
+                or len({flown[i] for i in clause.ids if i in flown}) < 2
+            ):
+                continue
+            named = [n for n, a in enumerate(sentence[:k]) if _is_one_uav(a)]
+            between = sentence[named[-2] : named[-1]] if len(named) > 1 else ()
+            if any(a.kind is AtomKind.VERB for a in between):
+                yield over(atom, sentence[-1])
+
+
+def _is_one_uav(atom: Atom) -> bool:
+    return atom.noun is not None and atom.noun.kind is NounKind.UAV and atom.noun.count <= 1
+
+
+def heights_of_both(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`climbs to 60 m when it loses the car it tracks`, and tracks it from 60 m up all along."""
+    first = {m.uav: m.altitude_m for m in reversed(spec.missions)}
+    flown = {(uav, height.span) for uav, height in first.items() if _explicit(height)}
+    for event in spec.events:
+        act = event.action
+        told = act.altitude_m if isinstance(act, UavAction) else None
+        if told is not None and told.span is not None and (act.uav, told.span) in flown:
+            yield told.span
 
 
 def standoffs_as_heights(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
