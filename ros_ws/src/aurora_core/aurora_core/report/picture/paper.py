@@ -37,7 +37,7 @@ WIDTHS_IN = {1: 3.5, 2: 7.16}
 # By columns: narrower or wider than this a map is no figure any more; width / height.
 _ASPECTS = {1: (0.9, 2.6), 2: (1.4, 4.5)}
 # What happens beside the flights is shown while the map grows no more than this by it.
-_MOST_WIDER = 2.5
+MOST_WIDER = 2.5
 # Room on a page is dear: closer to what happens than on the screen.
 _LEAST_SIDE_M = 70.0
 _STRIP_IN = 0.75
@@ -88,9 +88,9 @@ def draw_paper(
         tracks = tracks_of(trace)
         looks = looks_of(tracks)
         width_in = WIDTHS_IN[columns]
-        moments = _moments(trace, world, tracks, spec, caption)
+        moments = told_moments(trace, world, tracks, spec, caption)
         places = (moment.place_m for moment in moments if moment.place_m is not None)
-        box = region_of(tracks, _LEAST_SIDE_M).with_places(places, _MOST_WIDER)
+        box = region_of(tracks, _LEAST_SIDE_M).with_places(places, MOST_WIDER)
         narrowest, widest = _ASPECTS[columns]
         aspect = min(max(box.width / box.height, narrowest), widest)
         box = box.with_aspect(aspect)
@@ -112,7 +112,7 @@ def draw_paper(
                 _STRIP_IN / height_in,
             )
         )
-        _strip(strip, tracks, looks, trace.roster.dt_s, _shown_ticks(tracks, moments, trace))
+        _strip(strip, tracks, looks, trace.roster.dt_s, shown_ticks(tracks, moments, trace))
         _strip_moments(strip, moments, trace.roster.dt_s, (width_in - _LEFT_IN - _RIGHT_IN) * 72.0)
         if looks:
             figure.legend(
@@ -136,7 +136,7 @@ def moment_lines(
     """Return what the numbers of the figure stand for, one line each."""
     lines = []
     for number, moment in enumerate(
-        _moments(trace, world, tracks_of(trace), spec, caption), start=1
+        told_moments(trace, world, tracks_of(trace), spec, caption), start=1
     ):
         when = '' if moment.tick < 0 else f'{trace.time_s(moment.tick):.1f} s: '
         lines.append(f'{number}  {when}{moment.text}')
@@ -161,13 +161,14 @@ def paper_bytes(figure: Figure, suffix: str) -> bytes:
     return stream.getvalue()
 
 
-def _moments(
+def told_moments(
     trace: Trace,
     world: WorldModel,
     tracks: tuple[Track, ...],
     spec: ScenarioSpec | None,
     caption: Caption,
 ) -> tuple[Moment, ...]:
+    """Return what happened, with the altitudes that missions were grounded to."""
     altitudes = realised_altitudes(conditions_from_json(world.conditions_json))
     return moments_of(trace, tracks, spec, caption.failures, altitudes)
 
@@ -397,8 +398,8 @@ def _scale(ax: Axes, box: Box) -> None:
     )  # fmt: skip
 
 
-def _shown_ticks(tracks: tuple[Track, ...], moments: tuple[Moment, ...], trace: Trace) -> int:
-    """Return until when the strip goes: nobody needs to see an empty end."""
+def shown_ticks(tracks: tuple[Track, ...], moments: tuple[Moment, ...], trace: Trace) -> int:
+    """Return until when a run is shown: nobody needs to see an empty end."""
     ends = [moment.tick for moment in moments]
     for track in tracks:
         if track.is_uav:
