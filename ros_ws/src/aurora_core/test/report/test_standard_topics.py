@@ -160,3 +160,26 @@ def test_the_viewers_ask_for_topics_that_are_there(folder: Path) -> None:
     panels = layout['configById']
     asked = [*panels['3D!run']['topics'], panels['RawMessages!said']['topicPath']]
     assert set(asked) <= set(topics)
+    # Every panel that is laid out is there, and the other way round.
+    assert set(_leaves(layout['layout'])) == set(panels)
+
+
+def test_the_plots_ask_for_fields_that_are_there(folder: Path) -> None:
+    layout = json.loads((VIEWERS / 'aurora.foxglove.json').read_text(encoding='utf-8'))
+    plots = [panel for name, panel in layout['configById'].items() if name.startswith('Plot!')]
+    assert len(plots) == 2
+    for plot in plots:
+        for path in plot['paths']:
+            topic, *fields = path['value'].split('.')
+            value = _messages(folder, topic)[20][1]
+            for field in fields:
+                value = getattr(value, field)
+            assert isinstance(value, float)
+            # It is stamped, as the plot asks for.
+            assert _messages(folder, topic)[20][1].header.stamp.sec == 2
+
+
+def _leaves(layout: Any) -> list[str]:
+    if isinstance(layout, str):
+        return [layout]
+    return _leaves(layout['first']) + _leaves(layout['second'])
