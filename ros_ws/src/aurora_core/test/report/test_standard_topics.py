@@ -53,6 +53,15 @@ def test_every_topic_has_a_standard_type(folder: Path) -> None:
     assert all(schema.encoding == 'ros2msg' and schema.data for schema in summary.schemas.values())
 
 
+def test_it_is_compressed_in_chunks_as_the_record_is(folder: Path) -> None:
+    with (folder / f'{folder.name}.mcap').open('rb') as stream:
+        summary = make_reader(stream, validate_crcs=True).get_summary()
+    assert summary is not None
+    assert {chunk.compression for chunk in summary.chunk_indexes} == {'zstd'}
+    raw = sum(chunk.uncompressed_size for chunk in summary.chunk_indexes)
+    assert sum(chunk.compressed_size for chunk in summary.chunk_indexes) < 0.3 * raw
+
+
 def test_poses_are_those_of_the_trace(folder: Path, make: SimpleNamespace) -> None:
     trace = make.trace()
     uav = trace.roster.uavs[0]
