@@ -232,9 +232,9 @@ class _Story:
     def draw(self, tick: int) -> None:
         """Draw onto what the canvas holds."""
         for message in self._messages:
-            ends = message.sender.at(tick), message.receiver.at(tick)
-            if message.first <= tick <= message.last and ends[0] and ends[1]:
-                self._line.set_data(*zip(*ends, strict=True))
+            start, end = message.sender.at(tick), message.receiver.at(tick)
+            if message.first <= tick <= message.last and start and end:
+                self._line.set_data((start[0], end[0]), (start[1], end[1]))
                 self._line.set_color(_ARRIVED if message.arrived else _LOST)
                 self._ax.draw_artist(self._line)
         told = [m for m in self._moments if m.tick <= tick <= m.tick + self._hold][-_MOST_LINES:]
