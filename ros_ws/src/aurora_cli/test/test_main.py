@@ -105,6 +105,11 @@ def test_maps_are_listed_and_shown(capsys: pytest.CaptureFixture[str], tmp_path:
     assert picture.read_bytes().startswith(b'\x89PNG')
     assert run_command_line(['map', 'show', 'junction']) == 0
     assert 'signalised' in capsys.readouterr().out
+    # Of hundreds of names each has a line, to be looked through and searched.
+    assert run_command_line(['map', 'show', 'helsinki']) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert '  Agronomitalo (building)' in lines
+    assert max(map(len, lines)) < 200
 
 
 def test_what_breaks_is_told_in_words_and_as_json(

@@ -17,6 +17,9 @@ from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.report.lane_facts import along_lanes, hidden_at_corners, seen_from_air
 from aurora_core.report.terminal import line, print_table
 
+# A longer list has a line for each.
+_IN_ONE_LINE = 8
+
 
 def list_command(*, as_json: bool) -> int:
     """List the maps, bundled ones and own ones; an own one that is damaged is said to be.
@@ -93,8 +96,15 @@ def show_command(name: str, picture: Path | None, *, as_json: bool) -> int:
         return 0
     console = answer_console()
     for key, value in facts.items():
+        name = key.replace('_', ' ')
+        if isinstance(value, list) and len(value) > _IN_ONE_LINE:
+            # Each by itself, for eyes and for grep.
+            line(console, f'{name:<18} {len(value)}:')
+            for one in value:
+                line(console, f'  {one}')
+            continue
         shown = ', '.join(str(v) for v in value) if isinstance(value, list) else value
-        line(console, f'{key.replace("_", " "):<18} {shown}')
+        line(console, f'{name:<18} {shown}')
     return 0
 
 

@@ -17,12 +17,18 @@ from aurora_core.pipeline.verification import load_bag
 from aurora_core.pipeline.verify_run import verify_found
 from aurora_core.report.find_bag import FoundBag
 from aurora_core.report.picture.draw import draw_picture, png_bytes, svg_bytes
-from aurora_core.report.picture.paper import draw_paper, moment_lines, paper_bytes
+from aurora_core.report.picture.paper import (
+    draw_paper,
+    moment_lines,
+    paper_bytes,
+    told_moments,
+)
 from aurora_core.report.picture.video import gif_bytes
 from aurora_core.report.run_documents import read_document
 from aurora_core.report.run_folder import PICTURE, REPORT, SIGNED
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.scene.caption import Caption
+from aurora_core.report.scene.tracks import tracks_of
 from aurora_core.report.status import Status
 from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 from aurora_core.spec.scenario import ScenarioSpec
@@ -96,12 +102,8 @@ def picture_command(run_or_bag: str, options: PictureOptions, *, as_json: bool) 
     with quiet_stdout():
         content, agsg = load_bag(found.bag)
         trace, world, spec = content.trace, content.world, agsg.spec
-        if options.video:
-            write_file(output, gif_bytes(trace, world))
-            lines: tuple[str, ...] = ()
-        else:
-            caption = _caption(verify_found(installed(), found, content, agsg), found)
-            lines = _draw(output, trace, world, caption, spec, options)
+        caption = _caption(verify_found(installed(), found, content, agsg), found)
+        lines = _draw(output, trace, world, caption, spec, options)
     if as_json:
         print_json({'bag': str(found.bag), 'picture': str(output), 'caption': list(lines)})
         return 0
@@ -121,6 +123,10 @@ def _draw(
 ) -> tuple[str, ...]:
     """Write the picture and return the words that it leaves to its caption."""
     suffix = output.suffix.lower()
+    if options.video:
+        moments = told_moments(trace, world, tracks_of(trace), spec, caption)
+        write_file(output, gif_bytes(trace, world, moments))
+        return ()
     if options.style is PictureStyle.SCREEN:
         write_file(output, _WRITERS[suffix](draw_picture(trace, world, caption, spec=spec)))
         return ()

@@ -7,6 +7,7 @@ from __future__ import annotations
 from aurora_core.judging.build import Inputs, Source, Target, number
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.spec.parameter import Parameter, Span, Unit
+from aurora_core.spec.quantity import IN_PERCENT, OP_WORDS, SHARE_VERBS
 from aurora_core.spec.scenario import StatedCondition, UavMission
 from aurora_core.spec.vocabulary import MissionMode
 
@@ -59,8 +60,15 @@ def source_of(stated: StatedCondition) -> Source:
 
 def sentence_of(stated: StatedCondition) -> str:
     """Return the comparison in words."""
-    words = f'{stated.quantity.replace("_", " ")} of {" and ".join(stated.of)}'
-    text = f'{words} {stated.op} {number(stated.value.value)} {stated.value.unit.value}'
+    value, unit = stated.value.value, stated.value.unit
+    much = number(value) if unit is Unit.ONE else f'{number(value)} {unit.value}'
+    if stated.quantity in IN_PERCENT:
+        much = f'{number(100.0 * value)} %'
+    bound = f'{OP_WORDS[stated.op]} {much}'
+    text = f'{stated.quantity.replace("_", " ")} of {" and ".join(stated.of)} is {bound}'
+    if stated.quantity in SHARE_VERBS and len(stated.of) == 2:
+        who, whom = stated.of
+        text = f'{who} {SHARE_VERBS[stated.quantity]} {whom} for {bound} of the time'
     if stated.hold_s is not None:
         text += f' for {number(stated.hold_s.value)} s without a break'
     if stated.by_s is not None:

@@ -21,6 +21,7 @@ from aurora_core.report.run_report import ClauseReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.visible import visible
+from aurora_core.report.why import suspects
 from aurora_core.trace.air_clock import paced_lines
 
 if TYPE_CHECKING:
@@ -68,6 +69,7 @@ def report_html(
         kind=_KINDS[report.status],
         pieces=prompt_pieces(report.prompt, report.clauses),
         lost=[clause for clause in report.clauses if clause.status.is_open],
+        suspects=suspects(report),
         failed=[row for row in report.conditions if not row.satisfied],
         stated=[row for row in report.conditions if row.source],
         safety=[row for row in report.conditions if not row.source],

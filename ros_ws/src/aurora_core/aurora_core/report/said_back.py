@@ -48,7 +48,7 @@ from aurora_core.spec.prohibitions import (
     ForbiddenWorld,
     Prohibition,
 )
-from aurora_core.spec.quantity import OP_WORDS, QuantityName
+from aurora_core.spec.quantity import IN_PERCENT, OP_WORDS, SHARE_VERBS, QuantityName
 from aurora_core.spec.reference import is_place
 from aurora_core.spec.requirements import Order, SceneCount, StatedCondition
 from aurora_core.spec.scenario import ScenarioSpec
@@ -354,8 +354,15 @@ def _condition(stated: StatedCondition, spec: ScenarioSpec | None = None) -> str
     unit = '' if stated.value.unit is Unit.ONE else f' {stated.value.unit.value}'
     far = _centres(stated.of) if stated.quantity == QuantityName.DISTANCE else ''
     text = f'{stated.quantity.replace("_", " ")} of {whom}{far}'
-    if stated.quantity not in _YES_OR_NO or not stated.value.value:
-        text += f': {OP_WORDS[stated.op]} {stated.value.value:.6g}{unit}'
+    value = f'{stated.value.value:.6g}{unit}'
+    if stated.quantity in IN_PERCENT:
+        value = f'{100.0 * stated.value.value:.6g} %'
+    if stated.quantity in SHARE_VERBS and len(stated.of) == 2:
+        who, seen = map(_place, stated.of)
+        verb = SHARE_VERBS[stated.quantity]
+        text = f'{who} {verb} {seen} for {OP_WORDS[stated.op]} {value} of the time'
+    elif stated.quantity not in _YES_OR_NO or not stated.value.value:
+        text += f': {OP_WORDS[stated.op]} {value}'
     if stated.hold_s is not None:
         text += f', for {_number(stated.hold_s)} without a break'
     if stated.by_s is not None:

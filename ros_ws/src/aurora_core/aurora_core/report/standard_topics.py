@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from aurora_core.errors import BagError
@@ -45,7 +45,10 @@ def write_standard_bag(folder: Path, trace: Trace, world: WorldModel) -> dict[st
     if folder.exists():
         raise BagError(f'{folder} exists', hint='name another folder')
     try:
-        with Writer(folder, version=_VERSION, storage_plugin=StoragePlugin.MCAP) as writer:
+        writer = Writer(folder, version=_VERSION, storage_plugin=StoragePlugin.MCAP)
+        # Chunks of the file: poses ten times a second are much alike.
+        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+        with writer:
             return dict(_Recorder(writer, trace, world).record())
     except OSError as err:
         raise BagError(

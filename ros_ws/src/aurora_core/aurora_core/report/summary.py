@@ -145,9 +145,15 @@ def _unread(report: RunReport) -> str:
     return f' Not read or not judged: {_lost(report)}.' if lost else ''
 
 
-def _violated(rows: tuple[ConditionReport, ...]) -> str:
+def worst_first(rows: tuple[ConditionReport, ...]) -> list[ConditionReport]:
+    """Return the conditions that do not hold, those without a margin before all others."""
     failed = [row for row in rows if not row.satisfied]
     failed.sort(key=lambda row: (row.normalised is not None, row.normalised or 0.0, row.id))
+    return failed
+
+
+def _violated(rows: tuple[ConditionReport, ...]) -> str:
+    failed = worst_first(rows)
     texts = [f'{row.sentence.rstrip(".")} ({margin_text(row)})' for row in failed[:_SHOWN]]
     rest = len(failed) - _SHOWN
     return '; '.join(texts) + (f'; and {rest} more' if rest > 0 else '')

@@ -30,6 +30,7 @@ from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 from aurora_core.report.visible import one_line
+from aurora_core.report.why import happened_instead, suspects
 from aurora_core.report.wordings import wordings
 from aurora_core.temporal.words import named
 from aurora_core.trace.air_clock import paced_lines
@@ -87,11 +88,13 @@ def print_report(
 ) -> None:
     """Print a run's report: the verdict first, and last again where it has scrolled away.
 
+    Of a violated run what happened instead, and what may be the reason, follow the verdict.
+
     Args:
         report: What to print.
         console: Where; colours and boxes only when it is a terminal.
         folder: Run folder, when there is one.
-        brief: The verdict, what to do and the folder alone.
+        brief: The verdict, why, what to do and the folder alone.
     """
     headline(console, report.status.value, _COLOURS[report.status], report.summary)
     _question_and_error(report, console)
@@ -101,6 +104,10 @@ def print_report(
         line(console, f'folder   {folder}')
     if report.conditions and not brief:
         headline(console, report.status.value, _COLOURS[report.status], report.summary)
+    for text in happened_instead(report):
+        line(console, f'why      {text}')
+    for text in suspects(report):
+        line(console, f'suspect  {text}')
     step = _NEXT.get(report.status)
     if step and folder is not None:
         line(console, f'next     {step.format(run=shlex.quote(str(folder)))}')

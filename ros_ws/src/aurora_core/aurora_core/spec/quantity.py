@@ -83,3 +83,11 @@ class QuantityName(StrEnum):
     REPORT_GAP = 'report_gap'
     UNDONE = 'undone'
     MESSAGE_TEXT = 'message_text'
+
+
+# Shares of a time that are told by a verb: somebody sees somebody for so much of it.
+SHARE_VERBS: Mapping[str, str] = MappingProxyType(
+    {QuantityName.VISIBLE_FRACTION: 'sees', QuantityName.TRACKED_FRACTION: 'tracks'}
+)
+# What people tell in per cent.
+IN_PERCENT = frozenset({*SHARE_VERBS, QuantityName.DELIVERY_RATIO, QuantityName.BATTERY})

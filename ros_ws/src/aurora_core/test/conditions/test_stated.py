@@ -109,8 +109,17 @@ def test_a_stretch_of_sight_is_as_long_as_either_number_asks(
 def test_a_stretch_and_a_deadline_are_in_the_sentence(tb: ModuleType) -> None:
     more = {'hold_s': tb.number(4.0, Unit.SECOND), 'by_s': tb.number(9.0, Unit.SECOND)}
     (one,) = _stated(_derive(tb, tb.hover_case(), 'distance', ('uav1', 'ego'), **more))
-    assert one.sentence == 'distance of uav1 and ego <= 10 m for 4 s without a break by 9 s'
+    assert one.sentence == (
+        'distance of uav1 and ego is at most 10 m for 4 s without a break by 9 s'
+    )
     assert one.formula == ('eventually [0, 9] s (always [0, 4] s (distance(uav1,ego) <= 10 m))')
+
+
+def test_a_share_is_told_as_people_say_it(tb: ModuleType) -> None:
+    share = {'value': tb.number(0.99, Unit.ONE)}
+    made = _derive(tb, tb.convoy_case(), 'visible_fraction', ('uav1', 'bus1'), op='>=', **share)
+    (one,) = _stated(made)
+    assert one.sentence == 'uav1 sees bus1 for at least 99 % of the time'
 
 
 @pytest.mark.parametrize(

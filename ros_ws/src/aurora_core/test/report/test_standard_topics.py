@@ -53,6 +53,15 @@ def test_every_topic_has_a_standard_type(folder: Path) -> None:
     assert all(schema.encoding == 'ros2msg' and schema.data for schema in summary.schemas.values())
 
 
+def test_it_is_compressed_in_chunks_as_the_record_is(folder: Path) -> None:
+    with (folder / f'{folder.name}.mcap').open('rb') as stream:
+        summary = make_reader(stream, validate_crcs=True).get_summary()
+    assert summary is not None
+    assert {chunk.compression for chunk in summary.chunk_indexes} == {'zstd'}
+    raw = sum(chunk.uncompressed_size for chunk in summary.chunk_indexes)
+    assert sum(chunk.compressed_size for chunk in summary.chunk_indexes) < 0.3 * raw
+
+
 def test_poses_are_those_of_the_trace(folder: Path, make: SimpleNamespace) -> None:
     trace = make.trace()
     uav = trace.roster.uavs[0]
@@ -160,3 +169,26 @@ def test_the_viewers_ask_for_topics_that_are_there(folder: Path) -> None:
     panels = layout['configById']
     asked = [*panels['3D!run']['topics'], panels['RawMessages!said']['topicPath']]
     assert set(asked) <= set(topics)
+    # Every panel that is laid out is there, and the other way round.
+    assert set(_leaves(layout['layout'])) == set(panels)
+
+
+def test_the_plots_ask_for_fields_that_are_there(folder: Path) -> None:
+    layout = json.loads((VIEWERS / 'aurora.foxglove.json').read_text(encoding='utf-8'))
+    plots = [panel for name, panel in layout['configById'].items() if name.startswith('Plot!')]
+    assert len(plots) == 2
+    for plot in plots:
+        for path in plot['paths']:
+            topic, *fields = path['value'].split('.')
+            value = _messages(folder, topic)[20][1]
+            for field in fields:
+                value = getattr(value, field)
+            assert isinstance(value, float)
+            # It is stamped, as the plot asks for.
+            assert _messages(folder, topic)[20][1].header.stamp.sec == 2
+
+
+def _leaves(layout: Any) -> list[str]:
+    if isinstance(layout, str):
+        return [layout]
+    return _leaves(layout['first']) + _leaves(layout['second'])

@@ -11,10 +11,12 @@ from rich.console import Console
 
 from aurora_core.execution.faults import Fault
 from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.repair import Implicated
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.report.build import build_report
 from aurora_core.report.check_report import build_check
 from aurora_core.report.comparison import compare
+from aurora_core.report.run_report import RepairReport
 from aurora_core.report.terminal import print_check, print_report, print_verify
 from aurora_core.report.verify_report import verify_report
 from aurora_core.spec.vocabulary import ClauseStatus
@@ -53,8 +55,9 @@ def test_the_verdict_stands_first_and_last_and_alone_when_asked(make: SimpleName
     report = build_report(make.facts(verdict=make.verdict(make.result(margin=-1.0))))
     console = _plain()
     print_report(report, console, Path('/runs/x'))
-    first, *_, again, step = _text(console).splitlines()
+    first, *_, again, why, step = _text(console).splitlines()
     assert first == again
+    assert why == 'why      seen in 90 % of the samples'
     assert first.startswith('VIOLATED  ')
     assert step.split()[:4] == ['next', 'aurora', 'open', '/runs/x']
 
@@ -63,7 +66,36 @@ def test_the_verdict_stands_first_and_last_and_alone_when_asked(make: SimpleName
     assert [row.split()[0] for row in _text(console).splitlines()] == [
         'VIOLATED',
         'folder',
+        'why',
         'next',
+    ]
+
+
+def test_the_last_lines_tell_what_may_be_the_reason(make: SimpleNamespace) -> None:
+    """In the last ten lines, however much stands above: what repair found, or a fault."""
+    found = [
+        Implicated(field=f'm1/{k}', score=3.0 - k, direction=1, conditions=(), reason=f'cause {k}')
+        for k in range(3)
+    ]
+    attempts = [
+        RepairReport(iteration=1, kind='one_parameter', bag='bag.1', implicated=tuple(found)),
+        RepairReport(iteration=2, kind='grounding', reason='nothing is left to try'),
+    ]
+    report = build_report(make.facts(verdict=make.verdict(make.result(margin=-1.0))))
+    report = report.model_copy(update={'repairs': tuple(attempts)})
+    console = _plain()
+    print_report(report, console, Path('/runs/x'))
+    last = _text(console).splitlines()[-10:]
+    assert [row for row in last if row.startswith('suspect')] == [
+        'suspect  cause 0 (m1/0)',
+        'suspect  cause 1 (m1/1)',
+    ]
+    fault = Fault(kind='link_loss', subject='*', value=1.0, at_s=3.0)
+    console = _plain()
+    print_report(report.model_copy(update={'faults': (fault,)}), console, Path('/runs/x'))
+    last = _text(console).splitlines()[-10:]
+    assert [row for row in last if row.startswith('suspect')] == [
+        'suspect  injected fault link_loss on * from 3 s'
     ]
 
 

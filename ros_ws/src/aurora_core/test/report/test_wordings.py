@@ -40,6 +40,12 @@ def test_a_clause_gets_the_row_of_its_words() -> None:
     assert found[1].say == ''
 
 
+@pytest.mark.parametrize('text', ['takes a photo of a bus', 'shoots pictures', 'one snapshot'])
+def test_who_asks_for_a_photo_learns_what_to_say(text: str) -> None:
+    (found,) = wordings([_clause(text, ClauseStatus.NOT_ENCODED)])
+    assert 'films' in found.say
+
+
 def test_a_row_about_a_note_looks_at_the_note() -> None:
     text = 'follows a cyclist at 5 m/s'
     noted = _clause(text, ClauseStatus.NOT_JUDGED, 'no condition depends on speed_mps = 5 m/s')

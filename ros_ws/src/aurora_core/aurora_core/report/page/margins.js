@@ -50,6 +50,9 @@ function pathOf(times, values, x, y) {
   return path;
 }
 
+/** Returns the name of a signal in words: `hover_drift(uav1)` is the hover drift of uav1. */
+const inWords = (signal) => signal.replace(/^(\w+)\((.*)\)$/, (all, quantity, of) => (
+  `${quantity.replaceAll('_', ' ')} of ${of.replaceAll(',', ', ')}`));
 const isShare = (course) => Boolean(course.held);
 const asText = (course, v) => (isShare(course)
   ? `${(100 * v).toFixed(0)} %` : `${short(v)}${course.unit ? ` ${course.unit}` : ''}`);
@@ -90,7 +93,7 @@ function drawChart(box, id) {
   [low, high] = [low - room, high + room];
   if (isShare(course)) [low, high] = [-0.12, 1.06];
   const { svg, x, y, width } = paperOf(box, low, high, isShare(course) ? '' : course.unit);
-  svg.setAttribute('aria-label', `${course.signal} over time with its limit`);
+  svg.setAttribute('aria-label', `${inWords(course.signal)} over time with its limit`);
   const right = width - CHART.right;
   if (course.op === '==' && course.tolerance > 0) {
     svg.append(el('rect', { class: 'band', x: CHART.left, width: right - CHART.left,
@@ -169,10 +172,10 @@ function startMargins() {
       if (!chart || !box.offsetParent) return;
       const now = chart.move(time);
       says.textContent = now && now.v !== null
-        ? `${isShare(course) ? 'share so far' : course.signal} at ${time.toFixed(1)} s: `
+        ? `${isShare(course) ? 'share so far' : inWords(course.signal)} at ${time.toFixed(1)} s: `
           + `${asText(course, now.v)}, margin ${now.m >= 0 ? '+' : '−'}`
           + `${asText(course, Math.abs(now.m))}`
-        : `${course.signal}: not judged at ${time.toFixed(1)} s`;
+        : `not judged at ${time.toFixed(1)} s`;
       says.classList.toggle('lost', Boolean(now) && now.m < 0 && !isShare(course));
     };
     const redraw = () => {

@@ -8,7 +8,7 @@ What the numbers mean is left to the figure's caption; `moment_lines` has the wo
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Literal
 
 import matplotlib as mpl
@@ -18,6 +18,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
+from scipy.spatial import cKDTree
 
 from aurora_core.judging.codec import conditions_from_json
 from aurora_core.knowledge.world import WorldModel
@@ -27,14 +28,16 @@ from aurora_core.report.picture.strip import speeds_of
 from aurora_core.report.scene import style
 from aurora_core.report.scene.caption import Caption
 from aurora_core.report.scene.story import Moment, moments_of, realised_altitudes
-from aurora_core.report.scene.tracks import Box, Track, region_of, tracks_of, ways_of
+from aurora_core.report.scene.tracks import Box, FloatArray, Track, region_of, tracks_of, ways_of
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.trace import Trace
 
 # Width of one and of two columns of a page. Source: IEEE author centre, preparing graphics.
 WIDTHS_IN = {1: 3.5, 2: 7.16}
-# Narrower or wider than this a map is no figure any more; width / height.
-_ASPECTS = (0.9, 2.6)
+# By columns: narrower or wider than this a map is no figure any more; width / height.
+_ASPECTS = {1: (0.9, 2.6), 2: (1.4, 4.5)}
+# What happens beside the flights is shown while the map grows no more than this by it.
+MOST_WIDER = 2.5
 # Room on a page is dear: closer to what happens than on the screen.
 _LEAST_SIDE_M = 70.0
 _STRIP_IN = 0.75
@@ -44,6 +47,12 @@ _LEGEND_COLUMN_IN = 1.15
 # Numbers nearer to each other than this share one badge.
 _PILE_PT = 11.0
 _BADGE_PT = 5.2
+# Width of a way, by how much one is wider than the one that covers it, and the greatest.
+_THIN_PT, _STEP_PT, _THICK_PT = 1.1, 0.9, 3.8
+# With a greater share of it under another one, a way would be hidden.
+_COVERED = 0.1
+# After the last moment, as a share of the time until then.
+_AFTER = 0.04
 # Told apart also by people who see few colours, in colour and in grey (Okabe and Ito, without the
 # yellow); from the eighth body on the lines are dashed.
 _COLOURS = ('#0072b2', '#d55e00', '#009e73', '#a3337f', '#56b4e9', '#e69f00', '#000000')
@@ -79,8 +88,11 @@ def draw_paper(
         tracks = tracks_of(trace)
         looks = looks_of(tracks)
         width_in = WIDTHS_IN[columns]
-        box = region_of(tracks, _LEAST_SIDE_M)
-        aspect = min(max(box.width / box.height, _ASPECTS[0]), _ASPECTS[1])
+        moments = told_moments(trace, world, tracks, spec, caption)
+        places = (moment.place_m for moment in moments if moment.place_m is not None)
+        box = region_of(tracks, _LEAST_SIDE_M).with_places(places, MOST_WIDER)
+        narrowest, widest = _ASPECTS[columns]
+        aspect = min(max(box.width / box.height, narrowest), widest)
         box = box.with_aspect(aspect)
         map_in = (width_in, width_in / aspect)
         ncols = max(1, int(width_in / _LEGEND_COLUMN_IN))
@@ -90,7 +102,6 @@ def draw_paper(
         height_in = map_in[1] + below_in
         figure = Figure(figsize=(width_in, height_in), facecolor='white')
         FigureCanvasPdf(figure)
-        moments = _moments(trace, world, tracks, spec, caption)
         ax = figure.add_axes((0.0, below_in / height_in, 1.0, map_in[1] / height_in))
         _map(ax, world, tracks, looks, moments, box, map_in[0] * 72.0 / box.width)
         strip = figure.add_axes(
@@ -101,7 +112,7 @@ def draw_paper(
                 _STRIP_IN / height_in,
             )
         )
-        _strip(strip, tracks, looks, trace.roster.dt_s, trace.ticks)
+        _strip(strip, tracks, looks, trace.roster.dt_s, shown_ticks(tracks, moments, trace))
         _strip_moments(strip, moments, trace.roster.dt_s, (width_in - _LEFT_IN - _RIGHT_IN) * 72.0)
         if looks:
             figure.legend(
@@ -125,7 +136,7 @@ def moment_lines(
     """Return what the numbers of the figure stand for, one line each."""
     lines = []
     for number, moment in enumerate(
-        _moments(trace, world, tracks_of(trace), spec, caption), start=1
+        told_moments(trace, world, tracks_of(trace), spec, caption), start=1
     ):
         when = '' if moment.tick < 0 else f'{trace.time_s(moment.tick):.1f} s: '
         lines.append(f'{number}  {when}{moment.text}')
@@ -150,13 +161,14 @@ def paper_bytes(figure: Figure, suffix: str) -> bytes:
     return stream.getvalue()
 
 
-def _moments(
+def told_moments(
     trace: Trace,
     world: WorldModel,
     tracks: tuple[Track, ...],
     spec: ScenarioSpec | None,
     caption: Caption,
 ) -> tuple[Moment, ...]:
+    """Return what happened, with the altitudes that missions were grounded to."""
     altitudes = realised_altitudes(conditions_from_json(world.conditions_json))
     return moments_of(trace, tracks, spec, caption.failures, altitudes)
 
@@ -210,8 +222,12 @@ def _map(
         if track.is_background:
             x, y = track.position_m[:, 0], track.position_m[:, 1]
             ax.plot(x, y, color=style.BACKGROUND_AGENT, linewidth=0.5, zorder=3.0)
-    for track in shown(tracks):
-        _way(ax, track, looks[track.name])
+    # UAVs on top, in the order of the legend.
+    lowest_first = shown(tracks)[::-1]
+    lowest_first.sort(key=lambda track: track.is_uav)
+    widths = way_widths(lowest_first, points_per_m)
+    for rank, track in enumerate(lowest_first):
+        _way(ax, track, looks[track.name], rank, widths[track.name])
         points = track.position_m[::40, :2]
         points = points[np.isfinite(points).all(axis=1)]
         at = (points - (box.west, box.south)) * points_per_m
@@ -220,16 +236,48 @@ def _map(
     _scale(ax, box)
 
 
-def _way(ax: Axes, track: Track, look: Look) -> None:
+def way_widths(lowest_first: Sequence[Track], points_per_m: float) -> dict[str, float]:
+    """Return how wide the way of each body is drawn, in points: wider than what covers it.
+
+    Args:
+        lowest_first: In the order in which they are drawn.
+        points_per_m: Scale of the map.
+    """
+    ways = {track.name: _standing_out(track) for track in lowest_first}
+    widths: dict[str, float] = {}
+    for track in reversed(lowest_first):
+        own = ways[track.name]
+        covering = [
+            widths[name]
+            for name in widths
+            if len(own)
+            and len(ways[name])
+            and (cKDTree(ways[name]).query(own)[0] * points_per_m < _STEP_PT).mean() > _COVERED
+        ]
+        widest = max(covering, default=_THIN_PT - _STEP_PT)
+        widths[track.name] = min(widest + _STEP_PT, _THICK_PT)
+    return widths
+
+
+def _standing_out(track: Track) -> FloatArray:
+    """Return the points of a way, one per metre at most, so that who stands does not count."""
+    points = track.position_m[:, :2]
+    points = points[np.isfinite(points).all(axis=1)]
+    cells = np.unique(np.round(points), axis=0)
+    return np.asarray(cells, dtype=np.float64)
+
+
+def _way(ax: Axes, track: Track, look: Look, rank: int, width_pt: float) -> None:
     """Draw where a body went: start marked, the end an arrow head (UAV: its landing)."""
     colour, dashes = look
-    rank = 5.0 if track.is_uav else 4.0
     x, y = track.position_m[:, 0], track.position_m[:, 1]
-    edge = [withStroke(linewidth=2.4, foreground='white')]
+    # White edges lie beneath all ways, so that none hides another one.
+    ax.plot(x, y, color='white', linewidth=width_pt + 1.2, zorder=3.5, solid_capstyle='round')
     ax.plot(
-        x, y, color=colour, linestyle=dashes, linewidth=1.2, zorder=rank, path_effects=edge,
+        x, y, color=colour, linestyle=dashes, linewidth=width_pt, zorder=4.0 + 0.05 * rank,
         solid_capstyle='round',
     )  # fmt: skip
+    rank_of_ends = 6.0 if track.is_uav else 5.5
     here = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
     if len(here) == 0:
         return
@@ -237,7 +285,7 @@ def _way(ax: Axes, track: Track, look: Look) -> None:
     kind = '^' if track.is_uav else 'o'
     ax.plot(
         x[first], y[first], marker=kind, color=colour, markersize=4.5, markeredgecolor='white',
-        markeredgewidth=0.5, zorder=rank + 0.5,
+        markeredgewidth=0.5, zorder=rank_of_ends + 0.1,
     )  # fmt: skip
     # The last point that is far enough away gives the direction of the head.
     back = np.flatnonzero(np.hypot(x - x[last], y - y[last]) > 2.0)
@@ -245,15 +293,15 @@ def _way(ax: Axes, track: Track, look: Look) -> None:
         ax.annotate(
             '', (x[last], y[last]), (x[back[-1]], y[back[-1]]),
             arrowprops={
-                'arrowstyle': '-|>', 'color': colour, 'lw': 1.0, 'mutation_scale': 6.0,
-                'shrinkA': 0.0, 'shrinkB': 0.0,
+                'arrowstyle': '-|>', 'color': colour, 'lw': 1.0,
+                'mutation_scale': 4.5 + 2.0 * width_pt, 'shrinkA': 0.0, 'shrinkB': 0.0,
             },
-            zorder=rank + 0.4,
+            zorder=rank_of_ends,
         )  # fmt: skip
     elif track.is_uav:
         ax.plot(
             x[last], y[last], marker='v', color='white', markersize=3.5, markeredgecolor=colour,
-            markeredgewidth=0.8, zorder=rank + 0.6,
+            markeredgewidth=0.8, zorder=rank_of_ends + 0.2,
         )  # fmt: skip
 
 
@@ -326,7 +374,7 @@ def _map_moments(
         mx, my = bx / points_per_m + box.west, by / points_per_m + box.south
         place = placed[group[0]][1]
         ax.plot([place[0], mx], [place[1], my], color=style.INK, linewidth=0.5, zorder=8.0)
-        ax.plot(*place, marker='o', markersize=1.8, color=style.INK, zorder=8.0)
+        ax.plot(*place, marker='o', markersize=1.3, color=style.INK, zorder=8.0)
         _badge(ax, mx, my, text)
 
 
@@ -350,6 +398,17 @@ def _scale(ax: Axes, box: Box) -> None:
     )  # fmt: skip
 
 
+def shown_ticks(tracks: tuple[Track, ...], moments: tuple[Moment, ...], trace: Trace) -> int:
+    """Return until when a run is shown: nobody needs to see an empty end."""
+    ends = [moment.tick for moment in moments]
+    for track in tracks:
+        if track.is_uav:
+            ends += np.flatnonzero(track.airborne)[-1:].tolist()
+    if not any(track.is_uav for track in tracks):
+        return trace.ticks
+    return min(trace.ticks, int((1.0 + _AFTER) * max(ends, default=trace.ticks)) + 2)
+
+
 def _strip(
     ax: Axes, tracks: tuple[Track, ...], looks: dict[str, Look], dt_s: float, ticks: int
 ) -> None:
@@ -365,7 +424,9 @@ def _strip(
         lines = [(s.label, s.values) for s in speeds_of(tracks, colours, dt_s)]
     for name, values in lines:
         colour, dashes = looks[name]
-        ax.plot(times_s[: len(values)], values, color=colour, linestyle=dashes, linewidth=1.0)
+        ax.plot(
+            times_s[: len(values)], values[:ticks], color=colour, linestyle=dashes, linewidth=1.0
+        )
     ax.set_xlabel('simulated time [s]', fontsize=6.5, labelpad=1.5)
     ax.set_xlim(0.0, max(ticks - 1, 1) * dt_s)
     ax.set_ylim(bottom=0.0)

@@ -22,8 +22,10 @@ from aurora_core.spec.scenario import (
     BehaviorDoneTrigger,
     DistanceTrigger,
     Event,
+    EventDoneTrigger,
     HeadwayTrigger,
     MessageTrigger,
+    MissionDoneTrigger,
     ScenarioSpec,
     SendMessage,
     SpeedTrigger,
@@ -209,12 +211,14 @@ def _events(trace: Trace, by_name: dict[str, Track], spec: ScenarioSpec | None) 
         event = events.get(record.subject)
         if record.kind is ScenarioEventKind.TRIGGERED:
             triggered[record.subject] = record.tick
-            text, who = _trigger_words(event, record)
+            if event is not None and _comes_with_another(event):
+                continue
+            text, who = _trigger_words(event, record, events)
         elif record.kind is ScenarioEventKind.ACTION:
             at_once = triggered.get(record.subject) == record.tick
             if at_once and event is not None and isinstance(event.action, SendMessage):
                 continue  # the message has a moment of its own
-            text, who = _action_words(event, record)
+            text, who = _action_words(event, record, spec)
         else:
             continue
         track = by_name.get(who)
@@ -229,7 +233,17 @@ def _events(trace: Trace, by_name: dict[str, Track], spec: ScenarioSpec | None) 
     return found
 
 
-def _trigger_words(event: Event | None, record: EventRecord) -> tuple[str, str]:
+def _comes_with_another(event: Event) -> bool:
+    """Tell whether a trigger is an action that has a moment of its own: its, or another's."""
+    trigger = event.trigger
+    if isinstance(trigger, EventDoneTrigger):
+        return trigger.after_s is None
+    return trigger is None and event.action is not None
+
+
+def _trigger_words(
+    event: Event | None, record: EventRecord, events: Mapping[str, Event]
+) -> tuple[str, str]:
     trigger = event.trigger if event is not None else None
     if isinstance(trigger, DistanceTrigger):
         way = 'within' if trigger.on == 'distance_below' else 'beyond'
@@ -258,15 +272,28 @@ def _trigger_words(event: Event | None, record: EventRecord) -> tuple[str, str]:
     if isinstance(trigger, SpeedTrigger):
         way = 'below' if trigger.on == 'speed_below' else 'above'
         return f'{trigger.who} {way} {trigger.value_mps.value:g} m/s', trigger.who
+    if isinstance(trigger, MissionDoneTrigger):
+        return f'{trigger.uav} has flown its missions', trigger.uav
+    if isinstance(trigger, EventDoneTrigger) and trigger.after_s is not None:
+        awaited = events.get(trigger.event)
+        words, who = _action_words(awaited, record, None)
+        return f'{trigger.after_s.value:g} s after {words}', who
     return f'{record.subject} triggered', ''
 
 
-def _action_words(event: Event | None, record: EventRecord) -> tuple[str, str]:
+def _action_words(
+    event: Event | None, record: EventRecord, spec: ScenarioSpec | None
+) -> tuple[str, str]:
     action = event.action if event is not None else None
     if isinstance(action, SendMessage):
         return f'{action.sender} alerts {action.receiver}', action.sender
     if isinstance(action, AgentAction):
         return f'{action.agent}: {action.do.replace("_", " ")}', action.agent
+    if isinstance(action, UavAction) and action.do == 'change_mission' and spec is not None:
+        mission = next((m for m in spec.missions if m.id == action.mission), None)
+        if mission is not None:
+            words = mission_words(mission, stays=stays_where_it_is(spec, mission))
+            return f'{action.uav} goes over: {words}', action.uav
     if isinstance(action, UavAction):
         return f'{action.uav}: {action.do.replace("_", " ")}', action.uav
     return f'{record.subject} acts', ''

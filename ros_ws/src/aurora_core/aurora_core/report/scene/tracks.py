@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -80,6 +81,33 @@ class Box:
     def holds(self, x: float, y: float) -> bool:
         """Tell whether a point is inside."""
         return self.west <= x <= self.east and self.south <= y <= self.north
+
+    def with_places(self, places: Iterable[tuple[float, float]], most: float) -> Box:
+        """Return the box with places in it, too, as far as no side grows beyond a multiple.
+
+        Args:
+            places: The nearest come first.
+            most: Of the sides of this box.
+        """
+        box = self
+
+        def off(place: tuple[float, float]) -> float:
+            x, y = place
+            east, north = max(self.west - x, x - self.east), max(self.south - y, y - self.north)
+            return max(east, north)
+
+        for x, y in sorted(places, key=off):
+            wider = Box(
+                west=min(box.west, x - _MARGIN_M),
+                south=min(box.south, y - _MARGIN_M),
+                east=max(box.east, x + _MARGIN_M),
+                north=max(box.north, y + _MARGIN_M),
+            )
+            if not box.holds(x, y) and (
+                wider.width <= most * self.width and wider.height <= most * self.height
+            ):
+                box = wider
+        return box
 
     def with_aspect(self, aspect: float) -> Box:
         """Return the least box around this one with the aspect ratio width / height."""

@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 from xml.etree.ElementTree import Element, fromstring
 
+import jsonschema
 import numpy as np
 import pytest
 
@@ -93,6 +95,65 @@ def test_a_plan_goes_where_the_flight_went(make: SimpleNamespace) -> None:
         share = ((point - start) * ahead).sum(axis=1) / np.maximum((ahead**2).sum(axis=1), 1e-9)
         near = start + np.clip(share, 0.0, 1.0)[:, None] * ahead
         assert np.linalg.norm(point - near, axis=1).min() <= TOLERANCE_M + 0.01
+
+
+# What QGroundControl demands when it opens a plan, else it refuses the file. Source: its readers
+# MissionController, MissionItem, SimpleMissionItem, GeoFenceController, RallyPointController.
+_NUMBER = {'type': 'number'}
+_MAYBE = {'type': ['number', 'null']}
+_PLAN_OF_QGC = {
+    'type': 'object',
+    'required': ['fileType', 'version', 'groundStation', 'mission', 'geoFence', 'rallyPoints'],
+    'properties': {
+        'fileType': {'const': 'Plan'},
+        'version': {'const': 1},
+        'mission': {
+            'required': ['version', 'plannedHomePosition', 'items', 'firmwareType'],
+            'properties': {
+                'version': {'const': 2},
+                'plannedHomePosition': {'type': 'array', 'items': _NUMBER, 'minItems': 3},
+                'firmwareType': _NUMBER,
+                'vehicleType': _NUMBER,
+                'cruiseSpeed': _NUMBER,
+                'hoverSpeed': _NUMBER,
+                'items': {
+                    'items': {
+                        'required': ['type', 'frame', 'command', 'params', 'autoContinue'],
+                        'properties': {
+                            'type': {'const': 'SimpleItem'},
+                            'frame': _NUMBER,
+                            'command': _NUMBER,
+                            'autoContinue': {'type': 'boolean'},
+                            'doJumpId': _NUMBER,
+                            'params': {'items': _MAYBE, 'minItems': 7, 'maxItems': 7},
+                            'AltitudeMode': _NUMBER,
+                            'Altitude': _NUMBER,
+                            'AMSLAltAboveTerrain': _MAYBE,
+                        },
+                        # One of the three asks for all.
+                        'dependentRequired': {
+                            key: ['AltitudeMode', 'Altitude', 'AMSLAltAboveTerrain']
+                            for key in ('AltitudeMode', 'Altitude', 'AMSLAltAboveTerrain')
+                        },
+                    }
+                },
+            },
+        },
+        'geoFence': {
+            'required': ['version', 'circles', 'polygons'],
+            'properties': {'version': {'const': 2}},
+        },
+        'rallyPoints': {
+            'required': ['version', 'points'],
+            'properties': {'version': {'const': 2}},
+        },
+    },
+}
+
+
+def test_a_plan_has_all_that_qgroundcontrol_demands(make: SimpleNamespace) -> None:
+    plan = json.loads(json.dumps(flight_plan(_landing(make.trace()), make.world(), 0)))
+    jsonschema.validate(plan, _PLAN_OF_QGC, jsonschema.Draft202012Validator)
 
 
 def test_a_stop_on_the_way_is_a_time_to_stay(make: SimpleNamespace) -> None:

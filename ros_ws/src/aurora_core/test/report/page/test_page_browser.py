@@ -242,6 +242,7 @@ def test_what_failed_stands_first_with_its_chart(opened: Open) -> None:
     failed = page.locator('#failed')
     assert 'What failed (1 of 1)' in failed.inner_text()
     assert failed.locator('.chart svg').count() == 1
+    assert failed.locator('.instead').inner_text() == 'seen in 90 % of the samples'
     box = failed.bounding_box()
     # Beside the map, in the first screen.
     assert box is not None
@@ -298,6 +299,12 @@ def test_it_prints_in_black_on_white(opened: Open) -> None:
           .data].slice(0, 3)"""
     )
     assert min(corner) > 200
+    # The map is not pulled out of its shape.
+    shape = page.evaluate(
+        """() => { const map = document.getElementById('map');
+          return [map.width / map.height, map.clientWidth / map.clientHeight]; }"""
+    )
+    assert shape[0] == pytest.approx(shape[1], rel=0.02)
     assert page.pdf().startswith(b'%PDF')
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -20,9 +21,10 @@ from aurora_core.report.picture.paper import (
     numbers,
     paper_bytes,
     piles,
+    way_widths,
 )
 from aurora_core.report.scene.caption import Caption
-from aurora_core.report.scene.tracks import tracks_of
+from aurora_core.report.scene.tracks import Box, tracks_of
 
 
 def _caption(make: SimpleNamespace) -> Caption:
@@ -80,6 +82,42 @@ def test_the_numbers_are_those_of_the_lines(make: SimpleNamespace) -> None:
     assert last in shown
     assert '1' in shown
     assert any('uav1' in line for line in lines)
+
+
+def test_nobody_is_hidden_under_who_goes_the_same_way(make: SimpleNamespace) -> None:
+    trace = make.trace()
+    uav = next(track for track in tracks_of(trace) if track.is_uav)
+    below = replace(uav, entry=replace(uav.entry, body_id='below'), is_uav=False)
+    aside = replace(below, entry=replace(uav.entry, body_id='aside'))
+    aside = replace(aside, position_m=aside.position_m + np.array([0.0, 500.0, 0.0]))
+    widths = way_widths([aside, below, uav], 2.0)
+    assert widths['below'] > widths[uav.name] + 0.5
+    assert widths['aside'] == widths[uav.name]
+
+
+def test_it_shows_what_happens_and_no_empty_end(make: SimpleNamespace) -> None:
+    trace = make.trace()
+    still = [np.repeat(part[-1:], 4000, axis=0) for part in (trace.uav, trace.uav_commands)]
+    ground = np.concatenate([trace.ground, np.repeat(trace.ground[-1:], 4000, axis=0)])
+    commands = np.repeat(trace.ground_commands[-1:], 4000, axis=0)
+    long = replace(
+        trace,
+        ground=ground,
+        ground_commands=np.concatenate([trace.ground_commands, commands]),
+        uav=np.concatenate([trace.uav, still[0]]),
+        uav_commands=np.concatenate([trace.uav_commands, still[1]]),
+    )
+    figure = draw_paper(long, make.world(), _caption(make), spec=make.spec())
+    strip = figure.axes[1]
+    assert strip.get_xlim()[1] == pytest.approx(trace.ticks * trace.roster.dt_s, rel=0.1)
+
+
+def test_the_map_reaches_to_what_happens_beside_the_flights() -> None:
+    box = Box(west=0.0, south=0.0, east=100.0, north=100.0)
+    wider = box.with_places([(150.0, 50.0), (900.0, 50.0)], 2.5)
+    assert wider.holds(150.0, 50.0)
+    assert not wider.holds(900.0, 50.0)
+    assert (wider.west, wider.south, wider.north) == (0.0, 0.0, 100.0)
 
 
 def test_markers_do_not_pile_up() -> None:

@@ -11,7 +11,15 @@ from aurora_core.report.scene.caption import Failure
 from aurora_core.report.scene.story import Moment, Tone, moments_of
 from aurora_core.report.scene.tracks import tracks_of
 from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
-from aurora_core.spec.scenario import DistanceTrigger, Event, ScenarioSpec, SendMessage
+from aurora_core.spec.scenario import (
+    AgentAction,
+    DistanceTrigger,
+    Event,
+    EventDoneTrigger,
+    ScenarioSpec,
+    SendMessage,
+    UavAction,
+)
 from aurora_core.trace.records import (
     EventRecord,
     LinkEventKind,
@@ -75,6 +83,25 @@ def test_a_flight_is_told_from_take_off_to_landing(make: SimpleNamespace) -> Non
         'uav1 mission done, goes to land',
         'uav1 has landed',
     ]
+
+
+def test_an_event_that_waits_for_another_has_one_moment_in_words(
+    make: SimpleNamespace, with_event: ScenarioSpec
+) -> None:
+    """Nobody knows what e1 and e2 are who did not write the specification."""
+    trace = make.trace()
+    stop = Event(id='e1', trigger=None, action=AgentAction(do='stop', agent='motorcycle1'))
+    then = Event(
+        id='e2',
+        trigger=EventDoneTrigger(on='event_done', event='e1'),
+        action=UavAction(do='change_mission', uav='uav1', mission=with_event.missions[0].id),
+    )
+    spec = with_event.model_copy(update={'events': (stop, then)})
+    kinds = (ScenarioEventKind.TRIGGERED, ScenarioEventKind.ACTION)
+    records = tuple(_event(50, kind, event) for event in ('e1', 'e2') for kind in kinds)
+    texts = [moment.text for moment in _told(replace(trace, events=records), spec)]
+    assert texts[:2] == ['motorcycle1: stop', 'uav1 goes over: tracks motorcycle1']
+    assert not any('triggered' in text for text in texts)
 
 
 def test_a_mission_is_told_with_the_altitude_that_it_was_grounded_to(
