@@ -5,9 +5,11 @@
 from __future__ import annotations
 
 import random
+from functools import cache
 from pathlib import Path
 
 import pytest
+from judged_once import judged_once
 
 from aurora_bench.feasibility import attack, attempt
 from aurora_bench.feasibility.families import Case, family_cases
@@ -25,8 +27,13 @@ class _Lowest(random.Random):
         return 0.0
 
 
+@cache
+def cases() -> tuple[Case, ...]:
+    return tuple(family_cases())
+
+
 def case(ident: str) -> Case:
-    return next(c for c in family_cases() if c.id == ident and c.source == 'annotation')
+    return next(c for c in cases() if c.id == ident and c.source == 'annotation')
 
 
 def attempted(
@@ -84,8 +91,9 @@ def test_every_rule_is_attacked_and_both_ways_of_asking_are(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     # Of every family the first of each way of asking; all are judged by `test_families`.
-    some = [c for c in family_cases() if c.id.rpartition('-')[2] == '1']
+    some = [c for c in cases() if c.id.rpartition('-')[2] == '1']
     monkeypatch.setattr(attack, 'family_cases', lambda: some)
+    monkeypatch.setattr(attack, 'judged', judged_once)
     certified = attack._certified('downtown', '', 400.0)
     chosen = attack._sample(certified, 1)
     assert len(chosen) == len({c.rule for c in certified}) >= 18

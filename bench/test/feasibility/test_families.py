@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-import functools
 
 import pytest
+from judged_once import judged_once
 
 from aurora_bench.feasibility.corrupt import corrupted
 from aurora_bench.feasibility.families import Case, family_cases, typed_cases
@@ -26,11 +26,10 @@ CASES = tuple(
 )
 
 
-@functools.cache
 def result_of(ident: str) -> Judged:
     """Judge a case once, however many tests look at what is said of it."""
     (case,) = (c for c in CASES if c.id == ident)
-    return judged(installed(), 'downtown', case)
+    return judged_once(installed(), 'downtown', case)
 
 
 @pytest.mark.parametrize('case', CASES, ids=lambda case: case.id)

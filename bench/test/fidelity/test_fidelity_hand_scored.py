@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
+from yaml_rows import rows_of
 
 from aurora_bench.fidelity.answer import Answer
 from aurora_bench.fidelity.equivalences import EQUIVALENCES
@@ -22,7 +22,7 @@ Doc = dict[str, Any]
 
 def pairs_of(name: str) -> list[Doc]:
     """Return the pairs of a file beside this one."""
-    return list(yaml.safe_load(Path(__file__).with_name(name).read_text(encoding='utf-8')))
+    return list(rows_of(Path(__file__).with_name(name)))
 
 
 PAIRS = pairs_of('hand_scored.yaml')

@@ -9,6 +9,7 @@ import json
 import multiprocessing
 import os
 import signal
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,9 @@ from aurora_bench.realise.__main__ import REALISE
 from aurora_bench.rulers.checking import Check
 from aurora_bench.rulers.command import Ruler, measure
 from aurora_bench.rulers.runs import RunWork
+from aurora_bench.rulers.trial import JudgedTrial, Trial
 from aurora_cli.main import run_command_line
+from aurora_cli.pool import Lost, Work
 
 Doc = dict[str, Any]
 PROMPTS = {
@@ -39,6 +42,31 @@ LAST = 'realised 2 of 5 feasible  0.400 [0.118, 0.769]  silent failures 1  unche
 def cheap() -> Ruler:
     """Return the ruler `realise` without runs."""
     return replace(REALISE, work=lambda _options, folder: CheapWork(folder=folder))
+
+
+class _Died(Exception):  # noqa: N818  (what a worker's end is to the test)
+    """A worker would have ended."""
+
+
+@pytest.fixture
+def here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Start no worker: what is asked is about journal and output, whoever does the work."""
+
+    def end(code: int) -> None:
+        raise _Died(f'its worker died with exit code {code}')
+
+    def in_turn(
+        work: Work[Trial, JudgedTrial], trials: Sequence[Trial], **_: object
+    ) -> Iterator[tuple[int, JudgedTrial | Lost]]:
+        work.prepare()
+        for index, one in enumerate(trials):
+            try:
+                yield index, work(one)
+            except _Died as died:
+                yield index, Lost(why=str(died))
+
+    monkeypatch.setattr(os, '_exit', end)
+    monkeypatch.setattr('aurora_bench.rulers.trial.run_tasks', in_turn)
 
 
 @pytest.fixture
@@ -141,6 +169,7 @@ def test_ctrl_c_keeps_what_is_finished_and_resume_does_the_rest(
     assert results(parts) == results(whole)
 
 
+@pytest.mark.usefixtures('here')
 def test_a_changed_file_is_not_resumed(
     cheap: Ruler, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -152,6 +181,7 @@ def test_a_changed_file_is_not_resumed(
     assert 'is of another campaign: its files is mine/own.jsonl' in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures('here')
 def test_totals_show_no_prompt(
     cheap: Ruler, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -164,6 +194,7 @@ def test_totals_show_no_prompt(
     assert not [ident for ident in PROMPTS if ident in shown]
 
 
+@pytest.mark.usefixtures('here')
 def test_json_is_one_document(
     cheap: Ruler, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

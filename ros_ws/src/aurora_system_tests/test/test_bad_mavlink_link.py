@@ -30,7 +30,7 @@ from aurora_uav_sim.protocol import mavlink_port
 
 pytestmark = pytest.mark.ros
 
-PROMPT = 'A scenario of 24 seconds. A drone hovers at 10 meters over the ego car for 3 seconds.'
+PROMPT = 'A scenario of 18 seconds. A drone hovers at 5 meters over the ego car for 1 second.'
 LIMIT_S = 120.0
 BAD = LinkFaults(
     loss=0.2, duplication=0.2, reordering=0.2, truncation=0.05, corruption=0.05, delay_s=0.005

@@ -28,7 +28,7 @@ from aurora_system_tests.graph import RunningGraph
 
 pytestmark = pytest.mark.ros
 
-GOOD = 'A scenario of 24 seconds. A drone hovers at 10 meters over the ego car for 3 seconds.'
+GOOD = 'A scenario of 18 seconds. A drone hovers at 5 meters over the ego car for 1 second.'
 LIMIT_S = 60.0
 # What needs no simulator: the answer is that it cannot be read or cannot be.
 QUICK = [

@@ -38,7 +38,7 @@ PROMPT = (
 )
 # Who comes in its middle is known long before its end, which is all that some runs are about.
 FLOWN = PROMPT.replace('150', '80')
-SHORT = 'A scenario of 24 seconds. A drone hovers at 10 meters over the ego car for 3 seconds.'
+SHORT = 'A scenario of 18 seconds. A drone hovers at 5 meters over the ego car for 1 second.'
 # Heard by many, by the executor itself, by the monitor alone, by nobody beside the recorder.
 KINDS = ('clock', 'command', 'heartbeat', 'run_end', 'state')
 LIMIT_S = 120.0

@@ -19,7 +19,7 @@ from aurora_system_tests.graph import RunningGraph, running_graph
 
 pytestmark = pytest.mark.ros
 
-PROMPT = 'A scenario of 24 seconds. A drone hovers 10 m above the ego car for 3 seconds.'
+PROMPT = 'A scenario of 18 seconds. A drone hovers 5 m above the ego car for 1 second.'
 LIMIT_S = 120.0
 
 

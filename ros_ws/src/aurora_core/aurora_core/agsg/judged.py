@@ -14,7 +14,7 @@ the conditions about an event depend on its trigger, and on who is to do what.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from operator import attrgetter
@@ -123,7 +123,7 @@ def paths_stated(spec: ScenarioSpec) -> tuple[str, ...]:
 
 
 def conditions_depending(
-    spec: ScenarioSpec, conditions: Sequence[Condition], derive: Derive
+    spec: ScenarioSpec, conditions: Sequence[Condition], derive: Derive, paths: Container[str]
 ) -> Mapping[str, frozenset[str]]:
     """Return, by path of what is stated, the ids of the conditions that depend on it.
 
@@ -131,10 +131,13 @@ def conditions_depending(
         spec: The request.
         conditions: Those of the run.
         derive: How they were derived.
+        paths: Where what is asked about stands, of `paths_stated`.
     """
     known = _by_id(conditions)
     found: dict[str, frozenset[str]] = {}
     for facet in _facets(spec):
+        if facet.path not in paths:
+            continue
         ids: set[str] = set()
         event = _read_with(facet, spec)
         if event is not None:

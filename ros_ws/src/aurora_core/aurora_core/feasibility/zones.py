@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 import shapely
 
@@ -59,11 +60,9 @@ def check_zones(
         slack = tolerances.altitude_m.of(stated.value, approximate=stated.approximate)
         low = least(stated, slack, limits.uav_altitude_min_m)
         high = most(stated, slack, limits.uav_altitude_max_m)
-        for zone in zones:
-            is_level = zone.floor_m <= low and high <= zone.ceiling_m
-            if not is_level:
-                continue
-            roof = roof_of(mark, buildings)
+        level = [zone for zone in zones if zone.floor_m <= low and high <= zone.ceiling_m]
+        roof = roof_of(mark, buildings) if level else None
+        for zone in level:
             if _enters(mission, mark, zone, limits, tolerances, roof):
                 yield Certificate(
                     kind='geometric_contradiction',
@@ -215,6 +214,8 @@ def _bearings(mission: UavMission, tolerances: Tolerances) -> tuple[float, float
     return bearing.value, tolerances.bearing_deg
 
 
+# Mends are looked for by asking again and again with other numbers, mostly at the same place.
+@lru_cache(maxsize=64)
 def _sector(
     centre: tuple[float, float], near_m: float, far_m: float, bearing_deg: float, either_deg: float
 ) -> shapely.Geometry:

@@ -35,6 +35,18 @@ RUN_ID = '20260131T120000Z-0a1b2c'
 HELD = 1.0
 
 
+_FOUND: dict[tuple[str, int, int, str], GroundingOutcome] = {}
+
+
+def _grounded(agsg: Agsg, seed: int, plan: RepairPlan | None) -> GroundingOutcome:
+    """Ground a graph once in a process: the tests run the same prompt with other margins."""
+    planned = '' if plan is None else plan.model_dump_json()
+    key = agsg.sha256, agsg.iteration, seed, planned
+    if key not in _FOUND:
+        _FOUND[key] = functions.ground_stage(KNOWN, agsg, seed, plan)
+    return _FOUND[key]
+
+
 class FakeStages:
     """Flies nothing; execution k has the margin `margins[k]` on its first condition."""
 
@@ -59,7 +71,7 @@ class FakeStages:
             self.no_place -= 1
             failure = GroundingFailure(reason='road', tried=1, rejected_by={'road': 1})
             return GroundingOutcome(failure=failure)
-        return functions.ground_stage(KNOWN, agsg, request.seed, plan)
+        return _grounded(agsg, request.seed, plan)
 
     def execute(
         self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl

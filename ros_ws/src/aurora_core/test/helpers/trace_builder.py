@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -131,51 +132,51 @@ def flight(
     states = np.zeros((ticks, UAV_WIDTH))
     commands = np.zeros((ticks, UAV_COMMAND_WIDTH))
     states[:, UavColumn.QW] = 1.0
-    x, y, z = home[0], home[1], 0.0
+    # Python's own numbers: one by one, those of NumPy take several times as long.
+    x, y, z = float(home[0]), float(home[1]), 0.0
+    start = (x, y, z)
+    reached = TOLERANCES.altitude_m.of(altitude)
     ascent_end = landed = None
-    phase = UavPhase.ASCENT
-    flown: list[tuple[float, ...]] = []
-    told: list[tuple[float, ...]] = []
-    for k in range(ticks):
-        before = (x, y, z)
-        mode = UavMode.IDLE
-        if k == 0:
-            phase_value = int(UavPhase.IDLE)
-        elif landed is not None:
-            phase_value = int(UavPhase.LANDING)
+    flown = [start]
+    told = [(int(UavMode.IDLE), int(UavPhase.IDLE), True)]
+    for k in range(1, ticks):
+        mode: int = UavMode.IDLE
+        phase: int
+        if landed is not None:
+            phase = UavPhase.LANDING
         elif landing is not None and k >= landing:
-            mode, phase_value = UavMode.LAND, int(UavPhase.LANDING)
+            mode, phase = UavMode.LAND, UavPhase.LANDING
             z = max(0.0, z - 2.0 * DT_S)
         elif ascent_end is None:
-            mode, phase_value = UavMode.TAKEOFF, int(UavPhase.ASCENT)
+            mode, phase = UavMode.TAKEOFF, UavPhase.ASCENT
             z = min(altitude, z + 4.0 * DT_S)
-            if abs(z - altitude) <= TOLERANCES.altitude_m.of(altitude):
+            if abs(z - altitude) <= reached:
                 ascent_end = k
         else:
             mode = UavMode.OFFBOARD
-            phase_value = int(UavPhase.MISSION) + sum(k >= tick for tick in later)
-            wx, wy, wz = where(k)
-            away = np.hypot(wx - x, wy - y)
+            phase = UavPhase.MISSION + sum(k >= tick for tick in later)
+            wx, wy, wz = map(float, where(k))
+            away = math.hypot(wx - x, wy - y)
             share = 1.0 if away <= 15.0 * DT_S else 15.0 * DT_S / away
             x, y = x + share * (wx - x), y + share * (wy - y)
             z += min(4.0 * DT_S, max(-2.0 * DT_S, wz - z))
         if landing is not None and k > landing and z == 0.0 and landed is None:
             landed = k
-        down = k == 0 or landed is not None
-        flown.append((x, y, z, *((a - b) / DT_S for a, b in zip((x, y, z), before, strict=True))))
-        told.append((int(mode), phase_value, float(down)))
-    way, marks = np.array(flown), np.array(told, dtype=np.float64)
-    states[:, UavColumn.X : UavColumn.Z + 1] = way[:, :3]
-    states[:, UavColumn.VX : UavColumn.VZ + 1] = way[:, 3:]
+        flown.append((x, y, z))
+        told.append((int(mode), int(phase), landed is not None))
+    places = np.array(flown)
+    velocities = np.diff(places, axis=0, prepend=np.array([start])) / DT_S
+    marks = np.array(told, dtype=np.float64)
+    states[:, UavColumn.X : UavColumn.Z + 1] = places
+    states[:, UavColumn.VX : UavColumn.VZ + 1] = velocities
     states[:, UavColumn.MODE] = marks[:, 0]
     states[:, UavColumn.LANDED] = marks[:, 2]
     states[:, UavColumn.ARMED] = 1.0 - marks[:, 2]
-    commands[:, UavCommandColumn.X : UavCommandColumn.Z + 1] = way[:, :3]
-    commands[:, UavCommandColumn.VX : UavCommandColumn.VZ + 1] = way[:, 3:]
+    commands[:, UavCommandColumn.X : UavCommandColumn.Z + 1] = places
+    commands[:, UavCommandColumn.VX : UavCommandColumn.VZ + 1] = velocities
     commands[:, UavCommandColumn.MODE] = marks[:, 0]
     commands[:, UavCommandColumn.PHASE] = marks[:, 1]
     commands[0] = 0.0
-    assert phase is UavPhase.ASCENT
     return Flight(
         id=id,
         states=states,

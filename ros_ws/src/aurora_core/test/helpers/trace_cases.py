@@ -4,8 +4,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import dataclass, replace
+from functools import cache, wraps
 from itertools import pairwise
+from typing import ParamSpec
 
 import numpy as np
 from trace_builder import (
@@ -50,6 +54,24 @@ class Case:
     facts: PlanFacts
     world: WorldModel
     run: Run
+
+
+_Given = ParamSpec('_Given')
+
+
+def _flown_once(make: Callable[_Given, Case]) -> Callable[_Given, Case]:
+    """Fly a case once in a process; whoever asks gets a run of his own, to alter it."""
+    flown = cache(make)
+
+    @wraps(make)
+    def made(*args: _Given.args, **kwargs: _Given.kwargs) -> Case:
+        try:
+            case = flown(*args, **kwargs)
+        except TypeError:  # of an array, or another value that is no key
+            return make(*args, **kwargs)
+        return replace(case, run=deepcopy(case.run))
+
+    return made
 
 
 def mission(id: str, mode: MissionMode, **values: object) -> UavMission:
@@ -146,6 +168,7 @@ def message(
     entry(passed + latency_ticks, LinkEventKind.DELIVERED, lost, LossReason.NONE)
 
 
+@_flown_once
 def tailgate_case(*, keeps_away: bool = False, alert: bool = True, lost: int = 0) -> Case:
     """A van closes in on the ego from 45 m; a tracking drone alerts the ego at 20 m."""
     ticks = 1401
@@ -240,6 +263,7 @@ def facts_of(*missions: MissionFacts, horizon_s: float) -> PlanFacts:
     return PlanFacts(horizon_s=horizon_s, missions=missions)
 
 
+@_flown_once
 def hover_case(
     *,
     drift: float = 0.0,
@@ -301,6 +325,7 @@ RECTANGLE = (
 )
 
 
+@_flown_once
 def survey_case(
     *,
     skip: int | None = None,
@@ -356,6 +381,7 @@ def survey_case(
     return Case(spec=request, facts=facts, world=world(), run=run)
 
 
+@_flown_once
 def convoy_case(**speeds: FloatArray) -> Case:
     """Bus ahead of the ego, ambulance behind it, 20 m between centres; a drone tracks the bus."""
     ticks = 1401

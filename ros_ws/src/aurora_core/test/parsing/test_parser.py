@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-import yaml
+from yaml_rows import rows_of
 
 from aurora_core.errors import PromptError
 from aurora_core.outcomes.parse import ParseContext, RefusalKind
@@ -86,7 +86,7 @@ def test_spec_carries_prompt_map_and_clauses() -> None:
 
 
 def test_typical_prompt_takes_few_steps(steps_of: Callable[[Callable[[], object]], int]) -> None:
-    rows = yaml.safe_load(Path(__file__).with_name('prompts.yaml').read_text(encoding='utf-8'))
+    rows = rows_of(Path(__file__).with_name('prompts.yaml'))
     prompts = [row['prompt'] for row in rows[::8]]
     for prompt in prompts:  # what is read of the lexicon is kept
         parse_offline(prompt, CONTEXT)

@@ -12,9 +12,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from yaml_rows import rows_of
 
 from aurora_core.errors import PromptError
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome
@@ -23,10 +23,7 @@ from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
 CONTEXT = ParseContext(landmark_names=('central_park', 'clock_tower'))
-_PROMPTS = [
-    row['prompt']
-    for row in yaml.safe_load(Path(__file__).with_name('prompts.yaml').read_text(encoding='utf-8'))
-]
+_PROMPTS = [row['prompt'] for row in rows_of(Path(__file__).with_name('prompts.yaml'))]
 _WORDS = sorted({word for prompt in _PROMPTS for word in prompt.split()})
 # Written independently of the parser: factors by unit spelling, as decimal fractions of SI.
 _FACTORS = {

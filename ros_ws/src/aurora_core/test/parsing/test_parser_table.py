@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
+from yaml_rows import rows_of
 
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
@@ -168,7 +168,7 @@ def outcome_lines(outcome: ParseOutcome) -> list[str]:
 def _rows() -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
     for table in _TABLES:
-        rows += yaml.safe_load(table.read_text(encoding='utf-8'))
+        rows += rows_of(table)
     return rows
 
 

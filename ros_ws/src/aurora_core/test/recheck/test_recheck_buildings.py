@@ -8,6 +8,7 @@ Held against the solids of the running world on fine grids, which know nothing o
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
@@ -22,6 +23,7 @@ from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_model import MapModel, load_map
+from aurora_core.knowledge.map_types import Landmark
 from aurora_core.outcomes.feasibility import Certificate, Feasibility, Rule
 from aurora_core.recheck import recheck
 from aurora_core.spec.scenario import ScenarioSpec
@@ -112,6 +114,13 @@ def known(name: str) -> MapModel:
 
 
 def proofs(spec: ScenarioSpec, rule: Rule) -> list[Certificate]:
+    return _proofs(spec.model_dump_json(), rule)
+
+
+@cache
+def _proofs(text: str, rule: Rule) -> list[Certificate]:
+    """Look for proofs once in a process: many tests begin with the same refused request."""
+    spec = ScenarioSpec.model_validate_json(text)
     verdict = check_request(spec, known(spec.world.map_name), LIMITS, TOLERANCES, TYPES)
     found = [c for c in verdict.certificates if c.rule is rule]
     document = spec.model_dump(mode='json')
@@ -215,17 +224,26 @@ def goes_round(radius_m: float, high_m: float, duration_s: float) -> bool:
     mark = next(m for m in known('downtown').landmarks if m.name == 'City Hall')
     slack_m = max(5.0, 0.1 * radius_m)
     r = np.arange(radius_m - slack_m, radius_m + slack_m + 1e-9, 0.5)[:, None]
-    for shift in np.arange(0.0, 360.0, 90.0):
-        for off_m in (0.0, 9.9):
-            x = mark.x_m + off_m * math.sin(math.radians(shift))
-            y = mark.y_m + off_m * math.cos(math.radians(shift))
-            a = np.radians(np.arange(0.0, 720.0, 1.0))[None, :]
-            points = (x + r * np.sin(a), y + r * np.cos(a), np.full((len(r), a.size), high_m))
-            rows = np.column_stack([p.ravel() for p in points])
-            free = (walls.clearance_series(rows, 50.0) >= GAP_M).reshape(len(r), a.size)
-            if _longest(free) >= 345:
-                return True
+    a = np.radians(np.arange(0.0, 360.0, 1.0))[None, :]
+    for x, y in _centres(mark, (9.9,), 90.0):
+        points = (x + r * np.sin(a), y + r * np.cos(a), np.full((len(r), a.size), high_m))
+        rows = np.column_stack([p.ravel() for p in points])
+        free = (walls.clearance_series(rows, 50.0) >= GAP_M).reshape(len(r), a.size)
+        # Twice round, so that a way may begin anywhere.
+        if _longest(np.tile(free, 2)) >= 345:
+            return True
     return False
+
+
+def _centres(
+    mark: Landmark, offsets_m: tuple[float, ...], step_deg: float
+) -> Iterator[tuple[float, float]]:
+    """Yield a landmark's place (x, y), metres, and places around it at some distances."""
+    yield mark.x_m, mark.y_m
+    for off_m in offsets_m:
+        for shift in np.arange(0.0, 360.0, step_deg):
+            turned = math.radians(shift)
+            yield mark.x_m + off_m * math.sin(turned), mark.y_m + off_m * math.cos(turned)
 
 
 @cache
@@ -234,18 +252,15 @@ def passes_all(radius_m: float, high_m: float) -> bool:
     walls = solids('downtown')[1]
     mark = next(m for m in known('downtown').landmarks if m.name == 'City Hall')
     beside = [(q * math.cos(k), q * math.sin(k)) for q in (1.5, 2.99) for k in range(6)]
-    for off_m in (0.0, 6.0, 9.9):
-        for shift in np.arange(0.0, 360.0, 45.0):
-            x = mark.x_m + off_m * math.sin(math.radians(shift))
-            y = mark.y_m + off_m * math.cos(math.radians(shift))
-            a = np.radians(np.arange(0.0, 360.0, 2.0))
-            rows = np.array([
-                (x + radius_m * math.sin(t) + i, y + radius_m * math.cos(t) + j, high_m)
-                for t in a for i, j in beside
-            ])  # fmt: skip
-            free = (walls.clearance_series(rows, 50.0) >= GAP_M).reshape(len(a), -1).any(axis=1)
-            if free.reshape(36, 5).all(axis=0).any():
-                return True
+    a = np.radians(np.arange(0.0, 360.0, 2.0))
+    for x, y in _centres(mark, (6.0, 9.9), 45.0):
+        rows = np.array([
+            (x + radius_m * math.sin(t) + i, y + radius_m * math.cos(t) + j, high_m)
+            for t in a for i, j in beside
+        ])  # fmt: skip
+        free = (walls.clearance_series(rows, 50.0) >= GAP_M).reshape(len(a), -1).any(axis=1)
+        if free.reshape(36, 5).all(axis=0).any():
+            return True
     return False
 
 

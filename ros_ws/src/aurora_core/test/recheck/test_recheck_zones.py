@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
+from functools import cache
 from itertools import product
 from typing import Any
 
+import numpy as np
 import pytest
 import shapely
 
@@ -87,17 +88,16 @@ def distances(value: float | None, bound: str, bearing: float | None) -> tuple[f
     return near, 150.0 if bound == 'at_least' else value + slack_m(value)
 
 
+@cache
 def all_inside(place: str, near: float, far: float, bearing: float | None) -> bool:
     """Whether every place of a fine grid over what is asked for lies in one zone."""
     mark = MARKS[place]
     low, high = (0.0, 360.0) if bearing is None else (bearing - 15.0, bearing + 15.0)
-    angles = [math.radians(low + (high - low) * k / 180.0) for k in range(181)]
-    spots = [near + (far - near) * k / 60.0 for k in range(61)]
-    points = [
-        (mark.x_m + r * math.sin(a), mark.y_m + r * math.cos(a)) for r in spots for a in angles
-    ]
+    angles = np.radians(np.linspace(low, high, 181))
+    spots = np.linspace(near, far, 61)[:, None]
+    x, y = mark.x_m + spots * np.sin(angles), mark.y_m + spots * np.cos(angles)
     return any(
-        bool(shapely.contains_xy(shapely.Polygon(zone.ring), points).all()) for zone in MAP.zones
+        bool(shapely.contains_xy(shapely.Polygon(zone.ring), x, y).all()) for zone in MAP.zones
     )
 
 

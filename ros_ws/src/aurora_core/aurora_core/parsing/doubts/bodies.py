@@ -447,26 +447,27 @@ def _elements(key: Same) -> dict[str, list[tuple[tuple[Span, ...], frozenset[str
         parts += [(one.id, one) for one in group]
     found: dict[str, list[tuple[tuple[Span, ...], frozenset[str]]]] = {}
     for name, part in parts:
-        told = tuple(_spans(part)), frozenset(_strings(part))
-        found.setdefault(name, []).append(told)
+        inside = _parts(part)
+        spans = tuple(one for one in inside if isinstance(one, Span))
+        words = frozenset(one for one in inside if isinstance(one, str))
+        found.setdefault(name, []).append((spans, words))
     return found
-
-
-def _spans(value: object) -> Iterator[Span]:
-    return (part for part in _parts(value) if isinstance(part, Span))
 
 
 def _strings(value: object) -> Iterator[str]:
     return (part for part in _parts(value) if isinstance(part, str))
 
 
-def _parts(value: object) -> Iterator[object]:
-    """Yield what a model is made of, down to the plain values and the spans."""
-    if isinstance(value, BaseModel) and not isinstance(value, Span):
-        for _, inner in value:
-            yield from _parts(inner)
-    elif isinstance(value, tuple):
-        for inner in value:
-            yield from _parts(inner)
-    else:
-        yield value
+def _parts(value: object) -> list[object]:
+    """Return what a model is made of, down to the plain values and the spans, in no order."""
+    found: list[object] = []
+    left = [value]
+    while left:
+        part = left.pop()
+        if isinstance(part, tuple):
+            left += part
+        elif isinstance(part, BaseModel) and not isinstance(part, Span):
+            left += vars(part).values()
+        else:
+            found.append(part)
+    return found

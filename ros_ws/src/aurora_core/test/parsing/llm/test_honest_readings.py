@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 from honest_reader import honest_reading
+from yaml_rows import rows_of
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.llm.check import judge
@@ -39,7 +39,7 @@ def _scenario(spec: ScenarioSpec) -> Any:
 @pytest.fixture(scope='module')
 def references() -> list[ScenarioSpec]:
     """The specifications that can be told in a reading: every event has a cause and an effect."""
-    rows = yaml.safe_load((HERE.parent / 'prompts.yaml').read_text(encoding='utf-8'))
+    rows = rows_of(HERE.parent / 'prompts.yaml')
     specs = [parse_offline(row['prompt'], CONTEXT).spec for row in rows]
     return [
         spec

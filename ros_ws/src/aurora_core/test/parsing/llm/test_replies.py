@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
+from yaml_rows import rows_of
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.llm.check import judge
@@ -19,7 +19,7 @@ from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
 CONTEXT = ParseContext(landmark_names=('central_park', 'clock_tower'))
-_ROWS = yaml.safe_load(Path(__file__).with_name('replies.yaml').read_text(encoding='utf-8'))
+_ROWS = rows_of(Path(__file__).with_name('replies.yaml'))
 
 
 def scenario(spec: ScenarioSpec) -> Any:

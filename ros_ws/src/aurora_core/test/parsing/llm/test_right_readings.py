@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
+from yaml_rows import rows_of
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.llm.check import judge
 from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.spec.scenario import ScenarioSpec
 
-_ROWS = yaml.safe_load(Path(__file__).with_name('right_readings.yaml').read_text('utf-8'))
+_ROWS = rows_of(Path(__file__).with_name('right_readings.yaml'))
 CONTEXT = ParseContext(landmark_names=('City Hall', 'Meadow Park', 'Harbor Market'))
 
 

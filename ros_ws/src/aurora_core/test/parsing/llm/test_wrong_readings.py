@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
+from yaml_rows import rows_of
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.llm.check import judge
@@ -19,7 +19,7 @@ from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.spec.vocabulary import ClauseStatus
 
 _FILE = Path(__file__).with_name('right_readings.yaml')
-_ROWS = {row['about']: row for row in yaml.safe_load(_FILE.read_text('utf-8'))}
+_ROWS = {row['about']: row for row in rows_of(_FILE)}
 CONTEXT = ParseContext(landmark_names=('City Hall', 'Meadow Park', 'Harbor Market'))
 Answer = dict[str, Any]
 

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -33,8 +34,9 @@ def grounded(
     limits: Limits,
     tolerances: Tolerances,
 ) -> Callable[[str], Agsg]:
-    """Build the grounded graph of a prompt."""
+    """Build the grounded graph of a prompt, once."""
 
+    @cache
     def build(name: str) -> Agsg:
         spec = read_prompt(name)
         placed = ground(spec)
