@@ -160,7 +160,7 @@ class TickPath:
             output = run.stepper.step(tick, states[GROUND], states.get(AIR, _NO_UAVS))
             self._publish(run, tick, output)
             for name, account in run.accounts.items():
-                account.add(ahead.get(name, b''), states[name])
+                account.add(ahead.get(name, b''), states[name].data)
         except AuroraError as err:
             self._fail(run, err)
         except Exception as err:  # noqa: BLE001 - a defect: it ends the run, not the node

@@ -185,7 +185,7 @@ def test_it_is_loaded_once_for_a_run_and_tells_what_it_did(graph: Graph) -> None
     assert caught.value.component == 'sumo_bridge'
     graph.send_tick(3)
     graph.await_states(1)
-    driven = {
+    driven: dict[str, Any] = {
         'agent': array('H', [0]),
         'kind': array('B', [GroundCommandKind.SET_SPEED]),
         'value': array('d', [5.1]),

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import hashlib
 import json
+from array import array
 from typing import Any
 
 from aurora_core.errors import ExecutionError
-from aurora_core.ports.simulators import FloatArray
 from aurora_msgs.msg import GroundCommand, UavCommand
 from aurora_msgs.srv import LoadGround, LoadUav, RunDigest
 from aurora_ros.writers import COMPONENT
@@ -44,12 +44,12 @@ class Account:
         """Digest of the state rows of all ticks, float64 row by row, one tick after the other."""
         return self._states.hexdigest()
 
-    def add(self, told: bytes, rows: FloatArray) -> None:
+    def add(self, told: bytes, rows: memoryview | array[float]) -> None:
         """Take in the next tick.
 
         Args:
             told: What `told` gives of its command; empty for tick 0, which has none.
-            rows: The state at it, as published: anything with the bytes of its float64.
+            rows: The values (float64) of the state at it, row by row.
         """
         self._commands.update(len(told).to_bytes(_LENGTH_BYTES, 'little') + told)
         self._states.update(rows)

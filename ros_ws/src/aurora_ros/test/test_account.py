@@ -44,7 +44,7 @@ def account(request: Any, states: list[Any] = STATES, rows: list[Any] = ROWS) ->
     made = Account(request)
     for tick, state in enumerate(states):
         command = UavCommand(tick=tick, data=array('d', rows[tick].ravel()))
-        made.add(told(command) if tick else b'', state)
+        made.add(told(command) if tick else b'', state.data)
     return made
 
 
