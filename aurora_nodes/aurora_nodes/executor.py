@@ -8,6 +8,7 @@ lifecycle are served while it goes on.
 
 from __future__ import annotations
 
+import hashlib
 import threading
 import time
 import traceback
@@ -28,10 +29,12 @@ from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.hashing import trace_hashes
+from aurora_core.trace.trace import Integrity, Trace
 from aurora_msgs.action import ExecuteScenario
 from aurora_nodes.run_driver import Done, ExecutorSettings, Order, RunDriver
-from aurora_nodes.tick_path import TickPath
+from aurora_nodes.tick_path import AIR, GROUND, TickPath
 from aurora_ros import interfaces as on
+from aurora_ros.account import tampered
 from aurora_ros.conversions.messages import agsg
 from aurora_ros.conversions.options import run_request
 from aurora_ros.errors import write_error
@@ -165,6 +168,7 @@ class ExecutorNode(ManagedNode):
         result.outcome = done.outcome
         if done.outcome != 'cancelled':
             content = read_bag(done.bag, message_definitions())
+            _check_states(content.trace, done)
             hashes = trace_hashes(content.trace, content.world)
             result.trace_sha256 = hashes.trace_sha256
             result.motion_sha256 = hashes.motion_sha256
@@ -206,6 +210,20 @@ class _Feedback:
         self._handle.publish_feedback(
             ExecuteScenario.Feedback(sim_time_s=tick * self._dt_s, tick=tick)
         )
+
+
+def _check_states(trace: Trace, done: Done) -> None:
+    """Hold the states of a recording against those that were answered; damage is the verifier's.
+
+    Raises:
+        ExecutionError: They differ: somebody wrote to one of the two in a bridge's name.
+    """
+    if trace.integrity is not Integrity.INTACT:
+        return
+    recorded = {GROUND: trace.ground, AIR: trace.uav}
+    for source, heard_sha256 in done.states_sha256.items():
+        if hashlib.sha256(recorded[source].tobytes()).hexdigest() != heard_sha256:
+            raise tampered(f'the recorder holds other {source} states than the executor heard')
 
 
 def _end(goal: ServerGoalHandle, result: ExecuteScenario.Result) -> ExecuteScenario.Result:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,9 +17,17 @@ from aurora_core.errors import AuroraError, ExecutionError, ParticipantSilentErr
 from aurora_core.execution.plan import Execution
 from aurora_core.outcomes.agsg import Agsg
 from aurora_msgs.msg import RunEnd
-from aurora_msgs.srv import LoadSync, StartRecording, StartSync, StopRecording, StopSync
-from aurora_nodes.tick_path import ActiveRun, TickPath
+from aurora_msgs.srv import (
+    LoadSync,
+    RunDigest,
+    StartRecording,
+    StartSync,
+    StopRecording,
+    StopSync,
+)
+from aurora_nodes.tick_path import AIR, GROUND, ActiveRun, TickPath
 from aurora_ros import interfaces as on
+from aurora_ros.account import Account, tampered
 from aurora_ros.call import Caller
 from aurora_ros.conversions.loads import ground_request, uav_request
 from aurora_ros.conversions.messages import agsg_message, message_builder, world_message
@@ -33,6 +41,8 @@ from aurora_ros.writers import MatchedWriters, Stranger, named, second_one, stra
 CALLS = (
     on.GROUND_LOAD,
     on.UAV_LOAD,
+    on.GROUND_DIGEST,
+    on.UAV_DIGEST,
     on.SYNC_LOAD,
     on.SYNC_START,
     on.SYNC_STOP,
@@ -42,6 +52,7 @@ CALLS = (
 _LOOK_S = 0.05
 _SETTLE_S = 0.6  # the others' leases of whoever died end within one announcement of ours
 _WRITERS_S = 0.2  # how often it is looked who writes and serves
+_DIGESTS = {GROUND: on.GROUND_DIGEST, AIR: on.UAV_DIGEST}
 _LATCHED = (on.AGSG, on.ROSTER, on.WORLD)
 # Of these the recorder does not know who writes.
 _UNRECORDED = tuple(topic for topic in on.RUN_TOPICS if topic not in on.RECORDED)
@@ -89,11 +100,13 @@ class Done:
 
     Attributes:
         outcome: finished, horizon or cancelled.
+        states_sha256: Digests of the states that were heard, by `GROUND` and `AIR`.
     """
 
     bag: Path
     ticks: int
     outcome: str
+    states_sha256: Mapping[str, str]
 
 
 class RunDriver:
@@ -164,6 +177,7 @@ class RunDriver:
             self._await_end(run, cancelled)
             self._path.disarm()
             self._check_writers(self._strangers())
+            self._check_accounts(run)
             self._publish_end(order, run)
             self._stop_clock(run)
             bag = self._stop_recording(run, complete=True)
@@ -180,7 +194,12 @@ class RunDriver:
             self._participants = ()
             self._path.disarm()
             self._node.heartbeat.idle()
-        return Done(bag=bag, ticks=run.last_tick + 1, outcome=run.outcome or 'horizon')
+        return Done(
+            bag=bag,
+            ticks=run.last_tick + 1,
+            outcome=run.outcome,
+            states_sha256={name: it.states_sha256 for name, it in run.accounts.items()},
+        )
 
     def _await_participants(self, cancelled: Callable[[], bool]) -> None:
         """Wait for whoever was started again just before this run.
@@ -264,17 +283,13 @@ class RunDriver:
         )
         limit_s = self._settings.load_limit_s
         listeners = 1 + len(self._observers)  # of a state: this node too
-        self._call(
-            on.GROUND_LOAD,
-            ground_request(execution.ground_load, listeners=listeners, **common),
-            limit_s,
-        )
+        ground = ground_request(execution.ground_load, listeners=listeners, **common)
+        self._call(on.GROUND_LOAD, ground, limit_s)
+        run.accounts[GROUND] = Account(ground)
         if run.has_uavs:
-            self._call(
-                on.UAV_LOAD,
-                uav_request(execution.air_load, listeners=listeners, **common),
-                limit_s,
-            )
+            air = uav_request(execution.air_load, listeners=listeners, **common)
+            self._call(on.UAV_LOAD, air, limit_s)
+            run.accounts[AIR] = Account(air)
         await_subscribers(
             self._path.listeners(run.has_uavs, observers=len(self._observers)),
             limit_s=self._settings.call_limit_s,
@@ -363,6 +378,21 @@ class RunDriver:
         limit_s = self._settings.stop_limit_s
         response = self._caller.service(on.RECORDER_STOP, request, limit_s, await_restart=False)
         return Path(response.bag_uri)
+
+    def _check_accounts(self, run: ActiveRun) -> None:
+        """Hold what the others did against what they were asked for and what was heard.
+
+        Raises:
+            ExecutionError: They did something else: somebody wrote in another's name.
+        """
+        if not run.outcome:
+            raise tampered(f'sync ended the run at tick {run.last_tick}, the executor did not')
+        request = RunDigest.Request(run_number=run.run_number)
+        limit_s = self._settings.call_limit_s
+        for source, account in run.accounts.items():
+            call = _DIGESTS[source]
+            answer = self._caller.service(call, request, limit_s, await_restart=False)
+            account.compare(answer, call.server)
 
     def _stop_clock(self, run: ActiveRun) -> None:
         request = StopSync.Request(run_number=run.run_number)

@@ -29,6 +29,7 @@ from aurora_msgs.msg import (
 )
 from aurora_nodes.state_join import StateJoin
 from aurora_ros import interfaces as on
+from aurora_ros.account import Account, told
 from aurora_ros.conversions.states import Rows, unpack
 from aurora_ros.conversions.time import restamp
 from aurora_ros.errors import read_error, write_error
@@ -48,6 +49,8 @@ class ActiveRun:
     Attributes:
         last_tick: Last tick that was stepped, -1 before the first.
         sent: Messages published for the bag, by full topic name.
+        accounts: What each bridge should have done, by `GROUND` and `AIR`.
+        ahead: What was told each of them for the next tick.
         flown: The commands to the UAVs.
         none_driven: Of a tick without commands to ground agents.
         stopping: Set to end the run with the next tick, which is then complete as all others.
@@ -64,6 +67,8 @@ class ActiveRun:
     on_tick: Callable[[int], None]
     last_tick: int = -1
     sent: Counter[str] = field(default_factory=Counter)
+    accounts: dict[str, Account] = field(default_factory=dict)
+    ahead: dict[str, bytes] = field(default_factory=dict)
     flown: Rows[UavCommand] = field(init=False)
     none_driven: GroundCommand = field(init=False)
     stopping: bool = False
@@ -151,8 +156,11 @@ class TickPath:
             if ready is None:
                 return
             tick, states = ready
+            ahead, run.ahead = run.ahead, {}
             output = run.stepper.step(tick, states[GROUND], states.get(AIR, _NO_UAVS))
             self._publish(run, tick, output)
+            for name, account in run.accounts.items():
+                account.add(ahead.get(name, b''), states[name].data)
         except AuroraError as err:
             self._fail(run, err)
         except Exception as err:  # noqa: BLE001 - a defect: it ends the run, not the node
@@ -165,13 +173,16 @@ class TickPath:
         if not finished:
             # Before the word that the tick is done, so that no bridge has to wait a second time.
             if run.has_uavs:
-                self._send(run, on.UAV_COMMAND, run.flown.at(tick + 1, output.uav_commands))
+                flown = run.flown.at(tick + 1, output.uav_commands)
+                self._send(run, on.UAV_COMMAND, flown)
+                run.ahead[AIR] = told(flown)
             if output.ground_commands:
                 commands = builder.ground_commands(tick + 1, output.ground_commands)
             else:
                 commands = run.none_driven
                 restamp(commands, tick + 1, run.dt_s)
             self._send(run, on.GROUND_COMMAND, commands)
+            run.ahead[GROUND] = told(commands)
         self._publishers[on.TICK_DONE].publish(
             TickDone(
                 run_number=run.run_number,

@@ -33,7 +33,10 @@ class SumoBridgeNode(LockstepBridge):
         super().__init__(
             'sumo_bridge',
             BridgeInterfaces(
-                load=on.GROUND_LOAD, command=on.GROUND_COMMAND, state=on.GROUND_STATE
+                load=on.GROUND_LOAD,
+                digest=on.GROUND_DIGEST,
+                command=on.GROUND_COMMAND,
+                state=on.GROUND_STATE,
             ),
         )
         self.wants_autostart = declare(self, 'sumo_bridge', SumoBridgeSettings).autostart

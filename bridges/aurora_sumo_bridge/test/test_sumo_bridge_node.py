@@ -20,7 +20,9 @@ from aurora_core.knowledge.map_model import load_map
 from aurora_core.trace.layout import GROUND_WIDTH, GroundColumn, GroundCommandKind
 from aurora_core.trace.messages import read_rows
 from aurora_msgs.msg import GroundCommand, Tick
+from aurora_msgs.srv import LoadGround
 from aurora_ros import interfaces as on
+from aurora_ros.account import Account, told
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.forked import ForkedNode
@@ -56,7 +58,7 @@ class Graph:
         self.tick = play.publisher(on.TICK)
         self.command = play.publisher(on.GROUND_COMMAND)
 
-    def load(self, run_number: int = 1, **changes: Any) -> None:
+    def load(self, run_number: int = 1, **changes: Any) -> LoadGround.Request:
         fields = {
             'run_id': 'r',
             'run_number': run_number,
@@ -70,6 +72,7 @@ class Graph:
             **changes,
         }
         self.play.call(on.GROUND_LOAD, **fields)
+        return LoadGround.Request(**fields)
 
     def send_tick(self, tick: int, run_number: int = 1) -> None:
         self.tick.publish(Tick(run_number=run_number, tick=tick, time_s=tick * 0.05))
@@ -173,6 +176,41 @@ def test_inside_the_window_commands_alone_move_it(graph: Graph) -> None:
     graph.await_states(5)
     assert [state.tick for state in graph.states] == [0, 1, 2, 3, 4]
     assert not graph.faults
+
+
+def test_it_is_loaded_once_for_a_run_and_tells_what_it_did(graph: Graph) -> None:
+    asked = Account(graph.load())
+    with pytest.raises(ExecutionError, match='loaded already: ground/load') as caught:
+        graph.load(weather='heavy_rain')
+    assert caught.value.component == 'sumo_bridge'
+    graph.send_tick(3)
+    graph.await_states(1)
+    driven: dict[str, Any] = {
+        'agent': array('H', [0]),
+        'kind': array('B', [GroundCommandKind.SET_SPEED]),
+        'value': array('d', [5.1]),
+        'value2': array('d', [0.0]),
+        'text': [''],
+    }
+    graph.send_command(1, **driven)
+    graph.send_command(2)
+    graph.await_states(3)
+    commands = (b'', told(GroundCommand(**driven)), b'')
+    for command, state in zip(commands, graph.states, strict=True):
+        asked.add(command, state.data)
+    asked.compare(graph.play.call(on.GROUND_DIGEST, run_number=1), 'sumo_bridge')
+    with pytest.raises(ExecutionError, match='run 2 was not the last one to be loaded'):
+        graph.play.call(on.GROUND_DIGEST, run_number=2)
+
+
+def test_another_command_for_the_same_tick_ends_the_run(graph: Graph) -> None:
+    graph.load()
+    graph.send_tick(0)
+    graph.await_states(1)
+    graph.send_command(1)
+    graph.send_command(1, text=['of somebody else'])
+    assert wait_until(lambda: bool(graph.faults), 10.0), graph.process.log
+    assert 'network: two inputs for tick 1' in graph.faults[0].error_msg
 
 
 def test_a_load_waits_for_everybody_who_must_hear_the_state(graph: Graph) -> None:

@@ -119,11 +119,19 @@ class TickBarrier:
         return min([self._load.last_tick, *map(self._limit_of, self._acked)])
 
     def load(self, load: BarrierLoad) -> None:
-        """Prepare a run; one that is going on is given up.
+        """Prepare a run; another one that is going on is given up.
 
         Raises:
-            ExecutionError: There is nobody to wait for, or a name is there twice.
+            ExecutionError: The run is loaded already, there is nobody to wait for, or a name is
+                there twice.
         """
+        status = self._status
+        going_on = status.phase in (Phase.LOADED, Phase.RUNNING)
+        if going_on and load.run_number == status.run_number:
+            raise ExecutionError(
+                f'run {load.run_number} is loaded already: sync/load was called a second time',
+                component=COMPONENT,
+            )
         if not load.participants or load.last_tick < 0:
             raise ExecutionError(
                 f'expected participants and a horizon, found {load.participants} and tick '

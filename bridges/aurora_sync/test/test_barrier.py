@@ -250,3 +250,14 @@ def test_horizon_in_ticks() -> None:
     for horizon_s, dt_s in ((0.0, 0.05), (60.0, 0.0), (float('inf'), 0.05), (float('nan'), 0.05)):
         with pytest.raises(ExecutionError):
             tick_of_horizon(horizon_s, dt_s)
+
+
+def test_a_run_is_loaded_once() -> None:
+    made = barrier()
+    shorter = BarrierLoad(run_number=RUN, last_tick=1, participants=PARTICIPANTS)
+    with pytest.raises(ExecutionError, match='loaded already'):
+        made.load(shorter)
+    made.start(RUN, 0.0)
+    with pytest.raises(ExecutionError, match='loaded already'):
+        made.load(shorter)
+    assert phase(made) is Phase.RUNNING

@@ -45,7 +45,12 @@ class UavBridgeNode(LockstepBridge):
     def __init__(self) -> None:
         super().__init__(
             'uav_bridge',
-            BridgeInterfaces(load=on.UAV_LOAD, command=on.UAV_COMMAND, state=on.UAV_STATE),
+            BridgeInterfaces(
+                load=on.UAV_LOAD,
+                digest=on.UAV_DIGEST,
+                command=on.UAV_COMMAND,
+                state=on.UAV_STATE,
+            ),
         )
         self._settings = declare(self, 'uav_bridge', UavBridgeSettings)
         self.wants_autostart = self._settings.autostart

@@ -12,10 +12,12 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.subscription import Subscription
 
-from aurora_core.errors import AuroraError
+from aurora_core.errors import AuroraError, ExecutionError
 from aurora_core.ports.simulators import FloatArray
 from aurora_msgs.msg import Fault, SyncStatus, Tick
+from aurora_msgs.srv import RunDigest
 from aurora_ros import interfaces as on
+from aurora_ros.account import Account, told
 from aurora_ros.conversions.states import Rows
 from aurora_ros.errors import write_error
 from aurora_ros.heartbeat import HeartbeatWatch
@@ -33,9 +35,10 @@ _LOOK_S = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BridgeInterfaces:
-    """The three interfaces in which the bridges differ."""
+    """The interfaces in which the bridges differ."""
 
     load: Call
+    digest: Call
     command: Topic
     state: Topic
 
@@ -58,6 +61,7 @@ class LockstepBridge(ManagedNode):
         self._input: LockstepInput[Any] = LockstepInput(first_needs_input=False)
         self._run_number = 0
         self._rows: Rows[Any]  # once a run is loaded
+        self._account: Account | None = None
 
     @abstractmethod
     def open_run(self, request: Any) -> None:
@@ -94,6 +98,7 @@ class LockstepBridge(ManagedNode):
         self._watch = HeartbeatWatch(self)
         self.create_timer(_LOOK_S, self._on_look, clock=Clock(clock_type=ClockType.STEADY_TIME))
         self.serve(self._interfaces.load, self._load)
+        self.serve(self._interfaces.digest, self._digest)
 
     def deactivate(self) -> None:
         """Leave the run that is going on."""
@@ -101,6 +106,7 @@ class LockstepBridge(ManagedNode):
 
     def _load(self, request: Any, response: Any) -> Any:
         self.require_active()
+        self._refuse_twice(request.run_number)
         self._input.disarm()
         await_subscribers(
             {self._state_publisher: max(1, request.listeners)},
@@ -110,8 +116,36 @@ class LockstepBridge(ManagedNode):
         self.open_run(request)
         self._run_number = request.run_number
         self._rows = Rows(self._interfaces.state.type, request.run_number, request.dt_s)
+        self._account = Account(request)
         self._input.arm(request.run_number)
         self.heartbeat.busy(request.run_number)
+        response.ok = True
+        return response
+
+    def _refuse_twice(self, run_number: int) -> None:
+        """Refuse a second load of a run: what came last would be flown and nobody told.
+
+        Raises:
+            ExecutionError: The bridge is loaded for that run.
+        """
+        if run_number == self._input.run_number:
+            name = self._interfaces.load.name
+            raise ExecutionError(
+                f'run {run_number} is loaded already: {name} was called a second time',
+                component=self.get_name(),
+                hint='use a network that nobody else reaches: up --isolated, or another '
+                'ROS_DOMAIN_ID',
+            )
+
+    def _digest(
+        self, request: RunDigest.Request, response: RunDigest.Response
+    ) -> RunDigest.Response:
+        if self._account is None or request.run_number != self._run_number:
+            raise ExecutionError(
+                f'run {request.run_number} was not the last one to be loaded',
+                component=self.get_name(),
+            )
+        self._account.fill(response)
         response.ok = True
         return response
 
@@ -120,7 +154,11 @@ class LockstepBridge(ManagedNode):
         self._step()
 
     def _on_command(self, message: Any) -> None:
-        self._input.put(message.run_number, message.tick, message)
+        try:
+            self._input.put(message.run_number, message.tick, message)
+        except ExecutionError as err:
+            self._fail(err)
+            return
         self._step()
 
     def _on_sync_status(self, message: SyncStatus) -> None:
@@ -153,6 +191,8 @@ class LockstepBridge(ManagedNode):
             self._fail(defect(err, self.get_name()))
             return
         self._state_publisher.publish(message)
+        if self._account is not None:
+            self._account.add(b'' if command is None else told(command), message.data)
         self.heartbeat.at(tick)
 
     def _fail(self, err: AuroraError) -> None:

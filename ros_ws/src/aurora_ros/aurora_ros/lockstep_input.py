@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from typing import Generic, TypeVar
 
+from aurora_core.errors import ExecutionError
+
 _T = TypeVar('_T')
 
 
@@ -55,9 +57,15 @@ class LockstepInput(Generic[_T]):
             self._granted = tick
 
     def put(self, run_number: int, tick: int, value: _T) -> None:
-        """Take in the input stamped `tick`; another run's or an old one is ignored."""
-        if run_number == self._run_number and tick >= self._next:
-            self._inputs[tick] = value
+        """Take in the input stamped `tick`; another run's or an old one is ignored.
+
+        Raises:
+            ExecutionError: Another one with that stamp is waiting already.
+        """
+        if run_number != self._run_number or tick < self._next:
+            return
+        if self._inputs.setdefault(tick, value) != value:
+            raise ExecutionError(f'two inputs for tick {tick} that differ', component='network')
 
     def take(self) -> tuple[int, _T | None] | None:
         """Return tick and input once it may begin and its input is there, else None.

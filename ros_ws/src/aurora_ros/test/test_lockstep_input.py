@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+import pytest
+
+from aurora_core.errors import ExecutionError
 from aurora_ros.lockstep_input import LockstepInput
 
 RUN = 4
@@ -108,3 +111,12 @@ def test_disarm_and_a_new_run_forget_what_was_there() -> None:
     assert made.take() == (0, None)
     made.grant(RUN + 1, 1)
     assert made.take() is None
+
+
+def test_a_second_input_for_one_tick_is_refused_unless_it_is_the_same() -> None:
+    made = armed()
+    made.put(RUN, 2, 'command 2')
+    made.put(RUN, 2, 'command 2')
+    with pytest.raises(ExecutionError, match='two inputs for tick 2') as caught:
+        made.put(RUN, 2, 'of somebody else')
+    assert caught.value.component == 'network'

@@ -5,8 +5,11 @@
 from __future__ import annotations
 
 import json
+import queue
 import signal
 import tempfile
+import threading
+from array import array
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,13 +21,15 @@ pytest.importorskip('rclpy')
 
 from mcap.reader import make_reader
 
-from aurora_core.errors import ExecutionError
+from aurora_core.errors import AuroraError, ExecutionError
 from aurora_core.trace.bag_reader import bag_files
 from aurora_msgs.action import RunScenario
+from aurora_msgs.msg import Heartbeat
 from aurora_ros import interfaces as on
 from aurora_ros.cdr import run_and_tick, time_ns
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.forked import ForkedNode
+from aurora_ros.testing.partner import Partner
 from aurora_system_tests.graph import RunningGraph, running_graph
 from aurora_system_tests.intruder import NAME, TOPICS
 from aurora_system_tests.second_server import CALLS
@@ -41,6 +46,15 @@ FLOWN = PROMPT.replace('150', '80')
 SHORT = 'A scenario of 18 seconds. A drone hovers at 5 meters over the ego car for 1 second.'
 # Heard by many, by the executor itself, by the monitor alone, by nobody beside the recorder.
 KINDS = ('clock', 'command', 'heartbeat', 'run_end', 'state')
+ANOTHER_LOAD: dict[str, Any] = {
+    'dt_s': 0.05,
+    'horizon_s': 60.0,
+    'uav_id': ['uav1'],
+    'system_id': array('B', [1]),
+    'home_xy_m': array('d', [0.0, 0.0]),
+    'home_yaw_enu_rad': array('d', [0.0]),
+    'wind_mean_east_mps': 7.0,
+}
 LIMIT_S = 120.0
 TWIN_LIMIT_S = 4.0
 
@@ -113,6 +127,46 @@ def recorded(run_folder: Path, topic: on.Topic) -> Iterator[bytes]:
             with file.open('rb') as stream:
                 for _, _, message in make_reader(stream).iter_messages(topics=[topic.full_name]):
                     yield message.data
+
+
+class Intervention:
+    """Loads uav_bridge once more, with a wind, as soon as it is loaded for a run.
+
+    Args:
+        play: Calls.
+        answers: Gets what the bridge refused with, or None.
+        detour: Load it for another run in between.
+    """
+
+    def __init__(
+        self, play: Partner, answers: queue.Queue[AuroraError | None], *, detour: bool
+    ) -> None:
+        self._play = play
+        self._answers = answers
+        self._detour = detour
+        self._loaded: queue.Queue[int] = queue.Queue()
+        self._over = False
+        play.on(on.HEARTBEAT, self._on_heartbeat)
+        threading.Thread(target=self._work, daemon=True).start()
+
+    def end(self) -> None:
+        self._over = True
+
+    def _on_heartbeat(self, message: Heartbeat) -> None:
+        armed = message.node == 'uav_bridge' and message.state == Heartbeat.BUSY
+        if armed and message.tick == 0 and not self._over:
+            self._over = True
+            self._loaded.put(message.run_number)
+
+    def _work(self) -> None:
+        run_number = self._loaded.get(timeout=LIMIT_S)
+        try:
+            for number in (run_number + 1, run_number) if self._detour else (run_number,):
+                self._play.call(on.UAV_LOAD, LIMIT_S, run_number=number, **ANOTHER_LOAD)
+        except AuroraError as err:
+            self._answers.put(err)
+        else:
+            self._answers.put(None)
 
 
 def was_flown(graph: RunningGraph, result: Any) -> bool:
@@ -203,6 +257,24 @@ def test_who_begins_to_serve_during_a_run_is_named(graph: RunningGraph, call: st
     assert result.status == 'error', graph.logs()
     expected = f'second server of /aurora/{call}: node /{SERVER}'
     assert expected in report['error']['message'], (report['error'], graph.logs())
+    assert_next_is_verified(graph)
+
+
+@pytest.mark.parametrize('detour', [False, True])
+def test_who_loads_a_bridge_otherwise_changes_no_run(graph: RunningGraph, detour: bool) -> None:
+    answers: queue.Queue[AuroraError | None] = queue.Queue()
+    intervention = Intervention(graph.play, answers, detour=detour)
+    result = run(graph, SHORT)
+    refused = answers.get(timeout=LIMIT_S)
+    intervention.end()
+    report = json.loads(result.report_json)
+    if not detour:
+        assert 'loaded already: uav/load' in str(refused)
+        assert_verified(result, graph)
+        return
+    # Loaded for another run in between, the bridge takes what comes for this one.
+    assert result.status == 'error', (report, graph.logs())
+    assert report['error']['component'] in ('network', 'uav_bridge'), report['error']
     assert_next_is_verified(graph)
 
 
