@@ -9,8 +9,8 @@ import pytest
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.parsing.parser import ParseContext, parse_offline
+from aurora_core.planning.bodies import approaching, meeting, passed, standing, yielding
 from aurora_core.planning.bounds import bent
-from aurora_core.planning.complete import approaching, meeting, passed, standing, yielding
 from aurora_core.spec.own_events import let_pass
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import Behavior, Placement
