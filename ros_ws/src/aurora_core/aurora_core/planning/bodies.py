@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from aurora_core.spec.own_events import overtakings
+from aurora_core.spec.own_events import let_cross, overtakings
 from aurora_core.spec.scenario import AgentAction, GroundAgent, Placement, ScenarioSpec
-from aurora_core.spec.vocabulary import MOVING, AgentType, BehaviorKind, Relation, Role
+from aurora_core.spec.vocabulary import MOVING, AgentType, BehaviorKind, Place, Relation, Role
 
 # Who drives on the road.
 _DRIVEN = frozenset(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU}
@@ -23,18 +23,26 @@ def standing(spec: ScenarioSpec) -> ScenarioSpec:
     """Return the specification in which who waits after a motion comes to rest for it.
 
     "The van stops at the intersection and waits for 5 s" is one stop, of 5 s; "walks to the
-    crosswalk and waits there for 5 s" is another one: no wait before it has set off.
+    crosswalk and waits there for 5 s" is another one: no wait before it has set off. A person who
+    "walks to the crosswalk and waits there" stays, where nothing lets it go on.
 
     Args:
         spec: The request, whoever read it; returned as it is when nobody does.
     """
+    acting = {e.action.agent for e in spec.events if isinstance(e.action, AgentAction)}
+    acting |= {person for _, person in let_cross(spec)}
 
-    def stays(agent: GroundAgent) -> GroundAgent:
+    def at_rest(agent: GroundAgent) -> GroundAgent:
         behaviors = list(agent.behaviors[:1])
+        on_foot = agent.type is AgentType.PEDESTRIAN
         for before, wait in pairwise(agent.behaviors):
-            waits = wait.kind is BehaviorKind.WAIT and wait.target in (None, before.target)
-            lasts = wait.duration_s is not None and before.duration_s is None
-            here = {'duration_s': wait.duration_s, 'target': before.target}
+            along = on_foot and before.target == Place.SIDEWALK
+            waits = along or wait.target in (None, before.target)
+            waits = waits and wait.kind is BehaviorKind.WAIT
+            stays = on_foot and wait is agent.behaviors[-1] and agent.id not in acting
+            lasts = (wait.duration_s is not None or stays) and before.duration_s is None
+            place = wait.target if along and wait.target is not None else before.target
+            here = {'duration_s': wait.duration_s, 'target': place}
             if not waits or not lasts:
                 behaviors.append(wait)
             elif before.kind is BehaviorKind.STOP and before.target is not None:
@@ -47,7 +55,7 @@ def standing(spec: ScenarioSpec) -> ScenarioSpec:
             return agent
         return agent.model_copy(update={'behaviors': tuple(behaviors)})
 
-    agents = tuple(map(stays, spec.agents))
+    agents = tuple(map(at_rest, spec.agents))
     if agents == spec.agents:
         return spec
     return ScenarioSpec.model_validate({**dict(spec), 'agents': agents})
