@@ -7,6 +7,7 @@ from __future__ import annotations
 import pytest
 from events_by_hand import NOW, WALL, Build, Make, distance_event, event_of, triggered
 
+from aurora_core.execution.untold import least_mps
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -358,3 +359,10 @@ def test_a_person_who_stops_on_his_walk_crosses_when_he_has_stood(
     assert name == 'e2'
     assert 0.05 * (tick - 3) == pytest.approx(stands, abs=0.1)
     assert scene.commands()[-1] == (tick, 'ego', int(GroundCommandKind.SET_SPEED), 1.2)
+
+
+def test_a_person_is_on_the_move_when_he_walks() -> None:
+    """Nobody walks at 5 m/s: a stop of which nobody says when would never come."""
+    stop = AgentAction(do='stop', agent='ego')
+    assert least_mps(stop, is_person=True) < 1.0
+    assert least_mps(stop, is_person=False) == pytest.approx(5.0)
