@@ -179,7 +179,7 @@ class PersonPlacer:
             release = person_release(spec, agent) if rested or halts is None else Release()
             goal_m = self._map.network.lane(path.goal_lane_id).arc_length_m
             arrival = arrival_m(site, seat, goal_m, crosses=crosses(spec, agent))
-            if not (rested and halts is not None):
+            if not rested:
                 halts, arrival = walk_ends.stopping_m(seat, halts, arrival)
             yield GroundedAgent(
                 id=agent.id,
