@@ -12,9 +12,9 @@ from aurora_core.execution.event_state import EventState, has_crossed, shows_aft
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.lasting import Lasting
 from aurora_core.execution.observe import Observation
+from aurora_core.execution.own_stops import OwnStops
 from aurora_core.execution.triggers import BatteryRule, Progress, holds
 from aurora_core.execution.untold import (
-    ON_THE_MOVE_MPS,
     heard_before,
     least_mps,
     slowed_later,
@@ -76,7 +76,7 @@ class EventRunner:
         set_off: Gives the commands that let the agent of a row drive.
         drive: Gives the command that lets the agent of a row drive on.
         held: Rows of the agents that may not set off yet.
-        stopping: Rows of the agents that stop by themselves, at their place.
+        stopping: Rows of the agents that stop by themselves.
         ways: Who has to drive before anybody stops.
         braking: How hard drivers brake.
         lasting: Who is to do something for some time first.
@@ -108,14 +108,13 @@ class EventRunner:
         self._rules = rules
         self._lanes = lanes
         self._set_off = set_off
-        self._stopping = stopping
+        self._stops = OwnStops(roster, stopping, rules.stop_mps)
         self._ways = ways
         self._braking = braking
         self._lasting = lasting
         self._drive = drive
         self._held = held
         self._spec = spec
-        self._moved: set[int] = set()
         self.sped_up: set[int] = set()
         self.slowed_mps: dict[int, float] = {}
         self._yielding = Yielding(spec, roster)
@@ -140,7 +139,7 @@ class EventRunner:
         self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
         self._watches = pair_watches(roster, events)
         self._progress.doing = doing_watches(spec, rules, roster.dt_s)
-        self._progress.rests_s = {e.id: rest_s(spec.events, e, rules) for e in events}
+        self._progress.rests_s = {e.id: rest_s(spec, e, rules) for e in events}
         self._messages = 0
 
     @property
@@ -368,7 +367,9 @@ class EventRunner:
         heard = self._heard_before.get(event.id, frozenset())
         if not heard <= self._progress.received:
             return False
-        if isinstance(event.action, AgentAction) and self._lasting.is_busy(event.action.agent):
+        on_foot = self._stops.on_foot(event, seen)
+        busy = isinstance(event.action, AgentAction) and self._lasting.is_busy(event.action.agent)
+        if busy and not on_foot:
             return False
         # Nobody says when: once the UAVs watch, have flown the route that this may end, and once
         # who is to brake or stop is on the move and has driven.
@@ -384,11 +385,12 @@ class EventRunner:
         if speed_mps is None:
             return False
         row = self._roster.agent_index(event.action.agent)
-        if event.action.do == 'stop' and row in self._stopping:
-            # It stops at its place by itself; that it stands there is the event.
-            self._moved |= {row} if speed_mps >= ON_THE_MOVE_MPS else set()
-            return row in self._moved and speed_mps < self._rules.stop_mps
-        return speed_mps >= least_mps(event.action) and self._ways.all_driven()
+        stands = self._stops.stands(event, seen)
+        if stands is not None:
+            return stands
+        is_person = row is not None and self._roster.agents[row].is_person
+        least = least_mps(event.action, is_person=is_person)
+        return speed_mps >= least and self._ways.all_driven()
 
     def _allowed(
         self, event: Event, seen: Observation, machines: Sequence[MissionMachine]

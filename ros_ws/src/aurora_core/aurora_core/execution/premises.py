@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from aurora_core.execution.observe import Observation
-from aurora_core.execution.untold import ON_THE_MOVE_MPS
+from aurora_core.execution.untold import on_the_move_mps
 from aurora_core.execution.ways import Ways
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SpeedTrigger
@@ -123,7 +123,10 @@ class Premises:
         if not isinstance(event.action, AgentAction):
             return True
         answer_mps = seen.speed_mps(event.action.agent)
-        return answer_mps is not None and answer_mps >= ON_THE_MOVE_MPS
+        row = self._roster.agent_index(event.action.agent)
+        if answer_mps is None or row is None:
+            return False
+        return answer_mps >= on_the_move_mps(is_person=self._roster.agents[row].is_person)
 
 
 def _is_outrun(spec: ScenarioSpec, event: Event, most_mps: float) -> bool:

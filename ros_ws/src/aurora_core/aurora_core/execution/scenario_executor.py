@@ -209,7 +209,9 @@ class ScenarioExecutor:
     def _run_events(self, kind: type[EventRunner]) -> EventRunner:
         """Return what sets the events of the scenario off."""
         s = self._setup
-        stopping = frozenset(i for i, a in enumerate(s.agents) if a.stop_lane_id)
+        stopping = frozenset(
+            i for i, a in enumerate(s.agents) if a.stop_lane_id or a.halt_xy_m is not None
+        )
         return kind(
             s.spec,
             s.roster,

@@ -19,17 +19,25 @@ from aurora_core.spec.scenario import (
 from aurora_core.spec.vocabulary import AgentType
 
 # Speed from which an agent can be seen to brake or stop (m/s).
-ON_THE_MOVE_MPS = 5.0
+_ON_THE_MOVE_MPS = 5.0
+# The same of a person, who walks.
+_WALKS_MPS = 0.5
 
 # Loss of speed that shows as slowing down (m/s).
 _SHOWS_MPS = 2.5
 
 
-def least_mps(action: AgentAction) -> float:
+def on_the_move_mps(*, is_person: bool) -> float:
+    """Return the speed from which a vehicle, or a person, can be seen to brake or stop."""
+    return _WALKS_MPS if is_person else _ON_THE_MOVE_MPS
+
+
+def least_mps(action: AgentAction, *, is_person: bool) -> float:
     """Return the speed from which what an agent does on the move can be seen."""
-    if action.do not in ('slow', 'brake') or action.value_mps is None:
-        return ON_THE_MOVE_MPS
-    return max(ON_THE_MOVE_MPS, action.value_mps.value + _SHOWS_MPS)
+    least = on_the_move_mps(is_person=is_person)
+    if is_person or action.do not in ('slow', 'brake') or action.value_mps is None:
+        return least
+    return max(least, action.value_mps.value + _SHOWS_MPS)
 
 
 def heard_before(spec: ScenarioSpec) -> dict[str, frozenset[tuple[str, str]]]:

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from aurora_core.grounding.going import crosses
 from aurora_core.grounding.pace import PACED, own_speed_mps, stated_speed_mps
-from aurora_core.grounding.persons import crosses
 from aurora_core.grounding.sites import SeatedAgent
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.road_network import RoadNetwork

@@ -16,6 +16,7 @@ from aurora_core.grounding import walk_ends
 from aurora_core.grounding.awaited import awaited_at, bound_to_places
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.distances import DEFAULT_GAP_M
+from aurora_core.grounding.going import arrives, crosses, goes
 from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.nearby import ALONG, SIDES, by_vehicles, in_order
 from aurora_core.grounding.pace import encounter_room_m, met_persons, own_speed_mps
@@ -23,7 +24,13 @@ from aurora_core.grounding.parked import parked_boxes, walks_into
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import Release, person_release
 from aurora_core.grounding.routes import route_finder
-from aurora_core.grounding.sidewalk_spots import Spot, at_distance, nearest_spot, off_m
+from aurora_core.grounding.sidewalk_spots import (
+    Spot,
+    at_distance,
+    nearest_spot,
+    off_m,
+    walks_to,
+)
 from aurora_core.grounding.sites import (
     ANY_CLASS,
     SeatedAgent,
@@ -32,7 +39,7 @@ from aurora_core.grounding.sites import (
     line_from,
 )
 from aurora_core.grounding.stepping_out import FarKerb, names_crosswalk, steps_out
-from aurora_core.grounding.walk_ends import KERB_M, NEXT_M, arrival_m, halt_m, walks_up_m
+from aurora_core.grounding.walk_ends import KERB_M, NEXT_M, arrival_m, halt_m, rests_at, walks_up_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -40,14 +47,18 @@ from aurora_core.knowledge.map_records import WalkTable
 from aurora_core.knowledge.settings import PersonSettings
 from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
-from aurora_core.spec.events import sets_off
-from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.parking import stands, stands_first_s, stop_time_s, stops_for_good
+from aurora_core.spec.parking import (
+    crosses_after_stop,
+    crosses_rested,
+    stands,
+    stop_time_s,
+    stops_for_good,
+)
 from aurora_core.spec.reference import is_landmark
-from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.stated import is_stated
-from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
+from aurora_core.spec.vocabulary import Place, Relation
 
 # Who stands on a side of a vehicle is where the sidewalk is, to so much of a stated distance (m).
 _OFF_M = 1.5
@@ -80,16 +91,6 @@ _ON_WAY_M = 10.0
 _BEFORE_IT = (Relation.AHEAD, Relation.BEFORE)
 # Who is to cross walks no farther than this to the crosswalk (m): it has to be seen to.
 _TO_CROSSWALK_M = 20.0
-
-
-def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    """Tell whether an agent is to cross a street: by itself, by an event, or let pass."""
-    if any(person == agent.id for _, person in let_cross(spec)):
-        return True
-    return any(b.kind is BehaviorKind.CROSS for b in agent.behaviors) or any(
-        isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
-        for e in spec.events
-    )
 
 
 class PersonPlacer:
@@ -139,9 +140,13 @@ class PersonPlacer:
             if isinstance(spot, str):
                 return spot
             walker = SeatedPerson(
-                agent=agent, path=spot.path, arc_m=spot.arc_m, lateral_m=spot.lateral_m
+                agent=agent,
+                path=spot.path,
+                arc_m=spot.arc_m,
+                lateral_m=spot.lateral_m,
+                rest_m=spot.rest_m,
             )
-            way_m = _SHORT_WAY_M if _goes(spec, agent) else 0.0
+            way_m = _SHORT_WAY_M if goes(spec, agent) else 0.0
             seats = (*site.seated, *site.others)
             parked = parked_boxes(spec, seats, self._map.network, self._types)
             if not self._walked(spot.path):
@@ -167,13 +172,15 @@ class PersonPlacer:
             x, y, hx, hy = path.position_at(seat.arc_m)
             x, y = x - seat.lateral_m * hy, y + seat.lateral_m * hx
             free = path.begins_m is not None
-            stays = free or not _goes(spec, agent)
+            stays = free or not goes(spec, agent)
             mps = own_speed_mps(agent) or self._style.walking_mps
             halts = halt_m(site, seat, walks_up_m(spec, agent, mps), self._map.network)
-            release = person_release(spec, agent) if halts is None else Release()
+            rested = crosses_rested(spec, agent)
+            release = person_release(spec, agent) if rested or halts is None else Release()
             goal_m = self._map.network.lane(path.goal_lane_id).arc_length_m
             arrival = arrival_m(site, seat, goal_m, crosses=crosses(spec, agent))
-            halts, arrival = walk_ends.stopping_m(seat, halts, arrival)
+            if not rested:
+                halts, arrival = walk_ends.stopping_m(seat, halts, arrival)
             yield GroundedAgent(
                 id=agent.id,
                 type_name=agent.type.value,
@@ -193,7 +200,7 @@ class PersonPlacer:
                 arrival_position_m=None if stays else arrival,
                 lateral_m=seat.lateral_m,
                 way_xy_m=line_from(path, seat.arc_m) if free else (),
-                stop_s=stop_time_s(agent),
+                stop_s=None if crosses_after_stop(spec, agent) else stop_time_s(agent),
                 halt_xy_m=None if halts is None else path.position_at(halts)[:2],
                 release=ReleaseOn.NEVER if stays and not free else release.on,
                 release_uav=release.uav,
@@ -218,7 +225,7 @@ class PersonPlacer:
             # Without a stated distance the crosswalk says how far ahead of the vehicle that is.
             stated = any(is_stated(p.distance_m) for p in agent.placements)
             ahead = any(p.relation in _BEFORE_IT for p in agent.placements)
-            back_m = _ARRIVES_FROM_M if _arrives(spec, agent) else KERB_M
+            back_m = _ARRIVES_FROM_M if arrives(spec, agent) else KERB_M
             up_m = walks_up_m(spec, agent, own_speed_mps(agent) or self._style.walking_mps)
             there = placed if stated or not ahead else None
             return self._crossing(site, there, number, back_m, up_m)
@@ -228,7 +235,7 @@ class PersonPlacer:
             placed = self._at_place(spec, agent, site, number)
         if placed is None:
             return 'sidewalk'
-        if not _goes(spec, agent):
+        if not goes(spec, agent):
             return placed
         if stops_for_good(agent):
             return placed
@@ -433,8 +440,8 @@ class PersonPlacer:
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
         names += [trigger.place for trigger in arrivals(spec, agent)]
-        # Who is to arrive somewhere walks there from a little way off.
-        arrives = _arrives(spec, agent)
+        # Who is to arrive somewhere walks there from a little way off, who rests there from more.
+        comes, rests = arrives(spec, agent), rests_at(spec, agent)
         stated = {
             p.of: max(0.0, p.distance_m.inside(self._style.inside_bound_m))
             for p in agent.placements
@@ -451,39 +458,35 @@ class PersonPlacer:
                 if path is None:
                     return None
                 lane = self._map.network.lane(path.lane_id)
-                back_m = NEXT_M * number + (_ARRIVES_FROM_M if arrives else KERB_M)
+                back_m = NEXT_M * number + (_ARRIVES_FROM_M if comes and name != rests else KERB_M)
                 walk = walk_along(self._map.network, path.edge_ids[:1])
-                return None if walk is None else Spot(walk, max(0.0, lane.arc_length_m - back_m))
+                if walk is None:
+                    return None
+                spot = Spot(walk, max(0.0, lane.arc_length_m - back_m))
+                return walks_to(self._map.network, spot) if name == rests else spot
             if name is not None and has_point(name):
                 there = self._places.point(name, (x, y))
-                spot = nearest_spot(self._map.network, there, number)
-                if spot is None or not arrives:
-                    return spot
-                return replace(spot, arc_m=max(0.0, spot.arc_m - _ARRIVES_FROM_M))
+                near = nearest_spot(self._map.network, there, number)
+                if near is not None and name == rests:
+                    return walks_to(self._map.network, near, self._beyond_m(near, there))
+                if near is None or not comes:
+                    return near
+                return replace(near, arc_m=max(0.0, near.arc_m - _ARRIVES_FROM_M))
         if site.seated:
             front = max(site.seated, key=lambda s: s.arc_m)
             return self._along(front, DEFAULT_GAP_M, number)
         return nearest_spot(self._map.network, (x, y), number)
 
+    def _beyond_m(self, spot: Spot, place: tuple[float, float]) -> float:
+        """Return how far beyond a spot one is still at the place that it is next to (m)."""
+        x, y, _, _ = spot.path.position_at(spot.arc_m)
+        return max(0.0, self._tolerances.arrival_m - norm2(place[0] - x, place[1] - y) - 1.0)
+
     def _onward(self, spot: Spot, way_m: float) -> Spot | str:
         """Return a walk that goes on along the street for a way (m)."""
         edges = self._finder.straight_route(spot.path.edge_ids[0], spot.arc_m + way_m)
         path = walk_along(self._map.network, edges) if edges else None
-        return 'sidewalk' if path is None else Spot(path, spot.arc_m, spot.lateral_m)
-
-
-def _arrives(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    """Tell whether an event waits for a person to arrive somewhere."""
-    return next(arrivals(spec, agent), None) is not None
-
-
-def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    """Tell whether a person is to leave its place at some time."""
-    if crosses(spec, agent) or sets_off(spec.events, agent.id) is not None:
-        return True
-    if _arrives(spec, agent) or stands_first_s(agent) is not None:
-        return True
-    return bool(agent.behaviors) and not stands(agent)
+        return 'sidewalk' if path is None else replace(spot, path=path)
 
 
 def _met_m(spec: ScenarioSpec, person: GroundAgent, seat: SeatedAgent) -> Iterator[float]:

@@ -16,7 +16,7 @@ from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.events import bodies_of, bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, counts_from_capture, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
-from aurora_core.spec.parking import stands, stands_first_s
+from aurora_core.spec.parking import crosses_rested, stands, stands_first_s
 from aurora_core.spec.scenario import (
     AgentAction,
     ArrivalTrigger,
@@ -121,18 +121,20 @@ def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
 
     Who is watched goes once the UAV that watches is ready: also who crosses where one hovers. Who
     is let pass goes when the vehicle that does so comes near, unless that waits for the person.
-    Who waits for a stated time is released by nothing else.
+    Who waits for a stated time is released by nothing else; who rests before it crosses walks up
+    to there first.
     """
     if stands_first_s(agent) is not None:
         return Release(on=ReleaseOn.NEVER)
-    caused = any(
+    rested = crosses_rested(spec, agent)
+    caused = not rested and any(
         isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
         for e in spec.events
     )
     if caused or sets_off(spec.events, agent.id) is not None:
         return Release(on=ReleaseOn.EVENT)
     for vehicle, person in let_cross(spec):
-        if person == agent.id and not any(t.who == person for t in _arriving(spec)):
+        if person == agent.id and not rested and not any(t.who == person for t in _arriving(spec)):
             within_m = _yields_within_m(spec, vehicle, person)
             return Release(on=ReleaseOn.NEARED, agent=vehicle, within_m=within_m)
     if _told_in_time(spec, agent.id):

@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.walk_ends import KERB_M, NEXT_M
+from aurora_core.grounding.walk_ends import KERB_M, NEXT_M, WALKS_M
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.walk_path import WalkPath, walk_along
@@ -22,11 +22,12 @@ _BESIDE_PLACE_M = 50.0
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """A walk, and where it begins (m along it, and left of its middle)."""
+    """A walk, where it begins (m along it, and left of its middle), and where somebody rests."""
 
     path: WalkPath
     arc_m: float
     lateral_m: float = 0.0
+    rest_m: float | None = None
 
 
 def off_m(stated: Parameter, tolerances: Tolerances) -> float:
@@ -34,6 +35,17 @@ def off_m(stated: Parameter, tolerances: Tolerances) -> float:
     if stated.bound is not Bound.EXACTLY:
         return inf
     return tolerances.placement_other_m.of(stated.value, approximate=stated.approximate)
+
+
+def walks_to(network: RoadNetwork, spot: Spot, beyond_m: float = 0.0) -> Spot:
+    """Return the spot from which somebody walks to another one and rests there.
+
+    It is as far before that as shows that he walks, or at the beginning of the sidewalk; where
+    that is too near he rests up to `beyond_m` farther on (m).
+    """
+    end_m = max(spot.arc_m, network.lane(spot.path.lane_id).arc_length_m - KERB_M)
+    rest_m = min(max(spot.arc_m, KERB_M + WALKS_M), spot.arc_m + beyond_m, end_m)
+    return replace(spot, arc_m=max(min(KERB_M, rest_m), rest_m - WALKS_M), rest_m=rest_m)
 
 
 def at_distance(

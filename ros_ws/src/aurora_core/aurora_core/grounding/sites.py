@@ -50,8 +50,7 @@ _ASIDE_M = 8.0
 
 # Clear road in front of the first and behind the last bumper at t = 0.
 _END_GAP_M = 2.0
-# Within so much of its place along the way, a member is looked for beside it (m): a window of
-# the search, wider than any box.
+# So far along the way from its place a member is looked for beside it (m): wider than any box.
 _ABREAST_M = 30.0
 
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
@@ -76,12 +75,13 @@ class SeatedAgent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeatedPerson:
-    """A person at its place: on the walk `path` at `arc_m`, so far left of its middle."""
+    """A person on the walk `path` at `arc_m`, so far left of its middle; it rests at `rest_m`."""
 
     agent: GroundAgent
     path: WalkPath
     arc_m: float
     lateral_m: float = 0.0
+    rest_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

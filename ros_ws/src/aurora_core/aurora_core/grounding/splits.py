@@ -13,8 +13,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from aurora_core.grounding.convoy import ConvoyMember, SceneSplit, split_scene
+from aurora_core.grounding.going import crosses
 from aurora_core.grounding.lane_changers import first_side
-from aurora_core.grounding.persons import crosses
 from aurora_core.grounding.stepping_out import names_crosswalk
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerance

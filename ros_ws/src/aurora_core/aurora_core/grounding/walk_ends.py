@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 from aurora_core.grounding.pace import stated_times_s
+from aurora_core.grounding.places import has_point
 from aurora_core.grounding.sites import SeatedPerson, Site
 from aurora_core.knowledge.road_network import RoadNetwork
-from aurora_core.spec.parking import stops_for_good, stops_for_s
+from aurora_core.spec.parking import crosses_rested, stops_for_good, stops_for_s
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind
 
@@ -18,13 +19,28 @@ NEXT_M = 1.0
 # Who has crossed walks on this far (m), out of the way of the next one; who is said to walk, too,
 # goes so far in all: farther than shows that it does.
 _BEYOND_M = 6.0
-_WALKS_M = 24.0
+WALKS_M = 24.0
 
 # Who walks and stops has walked so far (m).
 _STOP_AFTER_M = 15.0
 
 # Who walks up to a crosswalk to cross at a stated time is there so long before (s).
 _EARLY_S = 2.0
+
+
+def rests_at(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
+    """Return the place that a person walks to and rests at, None without one.
+
+    Who stops because of something does so wherever that comes.
+    """
+    told = any(
+        isinstance(e.action, AgentAction)
+        and (e.action.agent, e.action.do) == (agent.id, 'stop')
+        and e.trigger is not None
+        for e in spec.events
+    )
+    stops = (b.target for b in agent.behaviors if b.kind is BehaviorKind.STOP)
+    return None if told else next((place for place in stops if has_point(place)), None)
 
 
 def arrival_m(site: Site, seat: SeatedPerson, goal_m: float, *, crosses: bool) -> float:
@@ -51,7 +67,7 @@ def _walks_on_m(seat: SeatedPerson, goal_m: float) -> float:
     if all(b.kind is not BehaviorKind.WALK for b in seat.agent.behaviors):
         return 0.0
     before_m = seat.path.length_m - goal_m - seat.arc_m
-    return _WALKS_M - before_m
+    return WALKS_M - before_m
 
 
 def walk_end_m(goal_m: float, ahead: int, group: int) -> float:
@@ -64,10 +80,13 @@ def walk_end_m(goal_m: float, ahead: int, group: int) -> float:
 
 
 def walks_up_m(spec: ScenarioSpec, agent: GroundAgent, walking_mps: float) -> float:
-    """Return how far somebody walks to where he crosses at a stated time (m), 0 for all others.
+    """Return how far somebody walks to where he crosses (m), 0 for who stands there.
 
-    "Walks on the sidewalk and crosses at 25 s": until then he walks.
+    "Walks on the sidewalk and crosses at 25 s": until then he walks. Who rests before he crosses
+    has walked up to there.
     """
+    if crosses_rested(spec, agent):
+        return WALKS_M
     if all(b.kind is not BehaviorKind.WALK for b in agent.behaviors):
         return 0.0
     times_s = stated_times_s(spec)
@@ -99,11 +118,15 @@ def stopping_m(
 ) -> tuple[float | None, float]:
     """Return where on its way a person stands for a while (m; None: nowhere), and where it ends.
 
+    That is the place where it is to rest, else a little way on.
+
     Args:
         seat: Of the one who walks.
         halts_m: Where it waits anyway.
         ends_m: Where the walk ends of who does not stop.
     """
+    if seat.rest_m is not None:
+        return seat.rest_m, seat.rest_m if stops_for_good(seat.agent) else ends_m
     stop_m = seat.arc_m + _STOP_AFTER_M
     if stops_for_s(seat.agent) is not None:
         return min(stop_m, seat.path.length_m), ends_m

@@ -71,8 +71,8 @@ class GroundedAgent(Document):
         runs_red: It drives on at a red light where nobody is in its way.
         lateral_m: Persons: so far left of the middle of the sidewalk.
         way_xy_m: Persons: their way over the street where no crosswalk is, ENU map frame.
-        halt_xy_m: Persons: where they wait, once they have walked there, for the event that lets
-            them cross; ENU map frame.
+        halt_xy_m: Persons: where they rest, once they have walked there: for `stop_s`, or until an
+            event lets them go on; ENU map frame.
         top_speed_mps: It drives no faster by itself, whatever the street allows (None: not known).
         gentle_mps2: It accelerates no harder, so that who keeps a distance behind it can (None:
             as its type does).

@@ -9,7 +9,6 @@ that already holds when it is due ("stop" of who stands) is complete at once.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +19,8 @@ from aurora_core.document import Document
 from aurora_core.knowledge.limits import Tolerance, Tolerances
 from aurora_core.spec.events import AgentAction, Event, EventDoneTrigger
 from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.parking import crosses_rested, stands_s, stops_for_s
+from aurora_core.spec.scenario import ScenarioSpec
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
@@ -89,22 +90,29 @@ def takes_time(action: AgentAction) -> bool:
     return action.do in ('stop', 'slow', 'accelerate', 'start', 'change_lane', 'cross')
 
 
-def rest_s(events: Sequence[Event], event: Event, rules: ActionRules | None) -> float:
+def rest_s(spec: ScenarioSpec, event: Event, rules: ActionRules | None) -> float:
     """Return how long an event waits for its agent to have stopped first, 0 for all others (s).
 
     "Stops and then drives on": who stands for less time than that has not stopped. A wait that is
-    stated stays what it is.
+    stated stays what it is. "Stops for 10 s and then crosses": a person stands for that time.
     """
     trigger, action = event.trigger, event.action
     if rules is None or not isinstance(trigger, EventDoneTrigger) or trigger.after_s is not None:
         return 0.0
     if trigger.on == 'event_begun':
         return 0.0
-    if not isinstance(action, AgentAction) or action.do not in _GOES_ON:
+    if not isinstance(action, AgentAction):
         return 0.0
-    cause = next((e.action for e in events if e.id == trigger.event), None)
+    person = next((a for a in spec.agents if a.id == action.agent), None)
+    rested = action.do == 'cross' and person is not None and crosses_rested(spec, person)
+    if not rested and action.do not in _GOES_ON:
+        return 0.0
+    cause = next((e.action for e in spec.events if e.id == trigger.event), None)
     stops = isinstance(cause, AgentAction) and cause.agent == action.agent and cause.do == 'stop'
-    return rules.stop_hold_s if stops else 0.0
+    if not stops:
+        return 0.0
+    lasts = stops_for_s(person) if rested and person is not None else None
+    return rules.stop_hold_s if lasts is None else max(rules.stop_hold_s, stands_s(lasts))
 
 
 def action_rules(tolerances: Tolerances) -> ActionRules:

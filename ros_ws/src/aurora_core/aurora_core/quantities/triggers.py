@@ -351,7 +351,7 @@ class EventTimes:
                 if done is None:
                     return None
                 after_s = trigger.after_s.value if trigger.after_s is not None else 0.0
-                after_s = max(after_s, rest_s(self.spec.events, event, self.rules.actions))
+                after_s = max(after_s, rest_s(self.spec, event, self.rules.actions))
                 tick = done + whole_ticks(after_s, view.dt_s)
                 return tick if tick < view.ticks else None
             case BehaviorDoneTrigger():

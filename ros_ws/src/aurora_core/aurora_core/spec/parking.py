@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
-from aurora_core.spec.events import ArrivalTrigger
+from aurora_core.spec.events import ArrivalTrigger, BehaviorDoneTrigger, Event, EventDoneTrigger
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation
 
 # Inside a stated bound on a time this much is aimed at (s), but no less than half of it.
 _INSIDE_S = 1.0
@@ -87,3 +87,37 @@ def stop_time_s(agent: GroundAgent) -> float | None:
 def stops_for_good(agent: GroundAgent) -> bool:
     """Tell whether an agent stops on its way and stays where it does."""
     return any(b.kind is BehaviorKind.STOP and b.duration_s is None for b in agent.behaviors)
+
+
+def crosses_rested(spec: ScenarioSpec, person: GroundAgent) -> bool:
+    """Tell whether somebody walks up to the crosswalk, rests there, and crosses after that.
+
+    He does so by himself, or by an event that waits for nothing but his stop.
+    """
+    here = (None, Place.CROSSWALK)
+    rests = [b for b in person.behaviors if b.kind is BehaviorKind.STOP and b.target in here]
+    if not rests:
+        return False
+    itself = any(b.kind is BehaviorKind.CROSS for b in person.behaviors)
+    return crosses_after_stop(spec, person) or (itself and stops_for_s(person) is not None)
+
+
+def crosses_after_stop(spec: ScenarioSpec, person: GroundAgent) -> bool:
+    """Tell whether an event lets somebody cross for which it only has to have stopped."""
+    own = [
+        e for e in spec.events if isinstance(e.action, AgentAction) and e.action.agent == person.id
+    ]
+    stops = {e.id for e in own if _does(e, 'stop') and e.trigger is None}
+    return any(
+        (isinstance(e.trigger, EventDoneTrigger) and e.trigger.event in stops)
+        or (
+            isinstance(e.trigger, BehaviorDoneTrigger)
+            and (e.trigger.who, e.trigger.behavior) == (person.id, BehaviorKind.STOP)
+        )
+        for e in own
+        if _does(e, 'cross')
+    )
+
+
+def _does(event: Event, action: str) -> bool:
+    return isinstance(event.action, AgentAction) and event.action.do == action

@@ -7,11 +7,13 @@ from __future__ import annotations
 import pytest
 from events_by_hand import NOW, WALL, Build, Make, distance_event, event_of, triggered
 
+from aurora_core.execution.untold import least_mps
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
     ArrivalTrigger,
     BatteryTrigger,
+    Behavior,
     DistanceTrigger,
     EventDoneTrigger,
     MessageTrigger,
@@ -21,6 +23,7 @@ from aurora_core.spec.scenario import (
     TimeTrigger,
     VisibilityTrigger,
 )
+from aurora_core.spec.vocabulary import BehaviorKind
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.records import LinkEventKind, ScenarioEventKind
 
@@ -328,3 +331,38 @@ def test_event_of_happens_once(stage: Build, parameter: Make) -> None:
     assert [c for c in scene.commands() if c[2] == GroundCommandKind.SET_SPEED] == [
         (0, 'ego', int(GroundCommandKind.SET_SPEED), 0.0)
     ]
+
+
+@pytest.mark.parametrize('stands_s', [None, 4.0])
+def test_a_person_who_stops_on_his_walk_crosses_when_he_has_stood(
+    stands_s: float | None, stage: Build, parameter: Make
+) -> None:
+    """That he halts at the kerb is the stop; a stop that lasts a stated time comes to its end."""
+    lasts = None if stands_s is None else parameter(stands_s, 's')
+    stop = Behavior(kind=BehaviorKind.STOP, target='crosswalk', duration_s=lasts)
+    stops = event_of(None, AgentAction(do='stop', agent='ego'))
+    done = EventDoneTrigger(on='event_done', event='e1')
+    crosses = event_of(done, AgentAction(do='cross', agent='ego'), id='e2')
+    scene = stage(
+        tracks={},
+        events=(stops, crosses),
+        behaviors={'ego': (stop,)},
+        halts={'ego': (5.0, 0.0)},
+        speeds={'ego': 1.2},
+    )
+    for x, speed in ((0.0, 1.2), (4.0, 1.2), (4.8, 1.2), (4.9, 0.0)):
+        scene.put('ego', x, speed=speed).step()
+    scene.step(100)
+    stands = 2.0 if stands_s is None else stands_s
+    assert triggered(scene)[0] == (3, 'e1')
+    ((tick, name),) = triggered(scene)[1:]
+    assert name == 'e2'
+    assert 0.05 * (tick - 3) == pytest.approx(stands, abs=0.1)
+    assert scene.commands()[-1] == (tick, 'ego', int(GroundCommandKind.SET_SPEED), 1.2)
+
+
+def test_a_person_is_on_the_move_when_he_walks() -> None:
+    """Nobody walks at 5 m/s: a stop of which nobody says when would never come."""
+    stop = AgentAction(do='stop', agent='ego')
+    assert least_mps(stop, is_person=True) < 1.0
+    assert least_mps(stop, is_person=False) == pytest.approx(5.0)

@@ -190,3 +190,66 @@ def test_who_is_at_a_landmark_and_ahead_of_a_vehicle_is_both(grounded: Ground) -
     assert (person.x_m - ego.x_m) * ego.heading_x + (
         person.y_m - ego.y_m
     ) * ego.heading_y == pytest.approx(30.0, abs=1.0)
+
+
+@pytest.mark.parametrize(
+    ('rests', 'place', 'stands_s'),
+    [
+        ('walks to the crosswalk and waits there', 'crosswalk', None),
+        ('walks to the crosswalk and waits there for 10 s', 'crosswalk', 10.0),
+        ('walks along the sidewalk and stops at the crosswalk', 'crosswalk', None),
+        ('walks to City Hall and stops there', 'landmark:City Hall', None),
+        ('walks to City Hall, waits there for 8 s and then walks on', 'landmark:City Hall', 8.0),
+    ],
+)
+def test_who_walks_to_a_place_and_rests_there_comes_from_where_that_shows(
+    grounded: Ground, tolerances: Tolerances, rests: str, place: str, stands_s: float | None
+) -> None:
+    found, the_map = grounded(f'A pedestrian {rests}. A drone tracks the pedestrian at 25 m.')
+    (person,) = _persons(found)
+    anchor = the_map.network.position_on_lane(found.anchor_lane, found.anchor_position_m)[:2]
+    assert person.halt_xy_m is not None
+    assert person.stop_s == stands_s
+    assert dist(person.halt_xy_m, MapPlaces(the_map).point(place, anchor)) < tolerances.arrival_m
+    way = Polyline(person.route_xy_m)
+    halts_m, aside_m = way.project(*person.halt_xy_m)
+    assert aside_m == pytest.approx(0.0, abs=0.01)
+    assert tolerances.drive_distance_m + 1.0 < halts_m < tolerances.drive_distance_m + 10.0
+    # Who stays does not go on, who rests for a while has somewhere to go.
+    left_m = way.length_m - halts_m
+    assert left_m > 20.0 if stands_s is not None else person.release is ReleaseOn.CAPTURED
+
+
+@pytest.mark.parametrize(
+    ('words', 'stands_s'),
+    [
+        ('stops there for 10 s and then crosses', None),
+        ('waits there for 10 s and then crosses', 10.0),
+        ('stops there and then crosses', None),
+    ],
+)
+def test_who_rests_before_he_crosses_walks_up_to_the_kerb(
+    grounded: Ground, words: str, stands_s: float | None
+) -> None:
+    """Where an event lets him cross, that says how long he stands; he never halts on the road."""
+    found, the_map = grounded(
+        f'A pedestrian walks to the crosswalk, {words}. A drone tracks the pedestrian at 25 m.'
+    )
+    (person,) = _persons(found)
+    assert person.release is ReleaseOn.CAPTURED
+    assert person.stop_s == stands_s
+    assert person.halt_xy_m is not None
+    assert 5.0 < dist((person.x_m, person.y_m), person.halt_xy_m) < 30.0
+    assert not the_map.network.carriageway.contains(shapely.Point(person.halt_xy_m))
+    assert shapely.LineString(person.route_xy_m).intersection(the_map.network.carriageway).length
+
+
+def test_who_stops_because_of_something_does_not_stop_at_a_place_by_itself(
+    grounded: Ground,
+) -> None:
+    found, _ = grounded(
+        'A pedestrian walks along the sidewalk and stops at the crosswalk when the drone warns '
+        'him.'
+    )
+    (person,) = _persons(found)
+    assert person.halt_xy_m is None

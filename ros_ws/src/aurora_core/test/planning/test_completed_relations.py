@@ -9,8 +9,8 @@ import pytest
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.parsing.parser import ParseContext, parse_offline
+from aurora_core.planning.bodies import approaching, meeting, passed, standing, yielding
 from aurora_core.planning.bounds import bent
-from aurora_core.planning.complete import approaching, meeting, passed, standing, yielding
 from aurora_core.spec.own_events import let_pass
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import Behavior, Placement
@@ -170,3 +170,22 @@ def test_every_wait_after_a_motion_is_a_rest() -> None:
     (agent,) = standing(read.model_copy(update={'agents': (twice,)})).agents
     kinds = [b.kind for b in agent.behaviors]
     assert kinds == [BehaviorKind.WALK, BehaviorKind.STOP] * 2
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'rests'),
+    [
+        ('A person walks to the crosswalk and waits there.', True),
+        ('A person walks along the sidewalk and waits at the crosswalk.', True),
+        ('A person walks to the crosswalk and waits there. After 40 s he crosses.', False),
+        ('A person walks to the crosswalk, waits there and then crosses.', False),
+        ('A person waits at the crosswalk.', False),
+    ],
+)
+def test_who_walks_and_waits_stays_there_if_nothing_lets_it_go(prompt: str, rests: bool) -> None:
+    read = parse_offline(prompt, CONTEXT).spec
+    assert read is not None
+    (agent,) = standing(read).agents
+    stops = [b for b in agent.behaviors if b.kind is BehaviorKind.STOP]
+    assert [(b.target, b.duration_s) for b in stops] == [('crosswalk', None)] * rests
+    assert any(b.kind is BehaviorKind.WAIT for b in agent.behaviors) is not rests
