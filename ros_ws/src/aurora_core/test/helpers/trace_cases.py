@@ -61,7 +61,7 @@ _Given = ParamSpec('_Given')
 
 def _flown_once(make: Callable[_Given, Case]) -> Callable[_Given, Case]:
     """Fly a case once in a process; whoever asks gets a run of his own, to alter it."""
-    flown = cache(make)
+    flown: Callable[..., Case] = cache(make)
 
     @wraps(make)
     def made(*args: _Given.args, **kwargs: _Given.kwargs) -> Case:

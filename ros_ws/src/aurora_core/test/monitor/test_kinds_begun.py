@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from kind_rows import Row
-from trace_cases import Case, ground_case, spec, world
+from trace_builder import world
+from trace_cases import Case, ground_case, spec
 
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior

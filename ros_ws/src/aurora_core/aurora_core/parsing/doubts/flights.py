@@ -297,11 +297,11 @@ def heights_of_both(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
     """`climbs to 60 m when it loses the car it tracks`, and tracks it from 60 m up all along."""
     first = {m.uav: m.altitude_m for m in reversed(spec.missions)}
     flown = {(uav, height.span) for uav, height in first.items() if _explicit(height)}
-    for event in spec.events:
-        act = event.action
-        told = act.altitude_m if isinstance(act, UavAction) else None
-        if told is not None and told.span is not None and (act.uav, told.span) in flown:
-            yield told.span
+    acts = [e.action for e in spec.events if isinstance(e.action, UavAction)]
+    for act in acts:
+        told = None if act.altitude_m is None else act.altitude_m.span
+        if told is not None and (act.uav, told) in flown:
+            yield told
 
 
 def standoffs_as_heights(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
