@@ -154,7 +154,9 @@ class Intervention:
 
     def _on_heartbeat(self, message: Heartbeat) -> None:
         armed = message.node == 'uav_bridge' and message.state == Heartbeat.BUSY
-        if armed and message.tick == 0 and not self._over:
+        # Refused whenever it comes; for the detour the run must not have begun.
+        early = message.tick == 0 or not self._detour
+        if armed and early and not self._over:
             self._over = True
             self._loaded.put(message.run_number)
 
