@@ -153,6 +153,7 @@ def _unread(prompt: str) -> list[str]:
             ' market.',
             'the market',
         ),
+        ('A child runs onto the road and the van stops.', 'the van stops'),
         ('When the bus starts to change lanes, the van brakes.', 'starts to change'),
         ('The ego brakes as a pedestrian steps off the curb.', 'as a pedestrian steps off'),
         ('When a pedestrian steps off the sidewalk, the bus brakes.', 'steps off the sidewalk'),
