@@ -97,7 +97,10 @@ class BehaviorDoneTrigger(Element):
     @model_validator(mode='after')
     def _lasts(self) -> Self:
         if self.behavior not in STANDING | MOVING:
-            raise ValueError(f'nobody sees from when on somebody does this: {self.behavior}')
+            raise ValueError(
+                f'{self.behavior} lasts for no stated time: make it an event without a trigger, '
+                'and wait for that one (event_done)'
+            )
         return self
 
 

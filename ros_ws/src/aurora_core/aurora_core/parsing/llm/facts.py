@@ -9,13 +9,14 @@ understand more than these words; it may not contradict them.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, NounKind
 from aurora_core.parsing.landmarks import landmark_phrases
 from aurora_core.parsing.measures import COUNT, Measure
 from aurora_core.parsing.tagging import tag
-from aurora_core.parsing.tokens import tokenize
+from aurora_core.parsing.tokens import Token, tokenize
 from aurora_core.spec.parameter import Span
 
 _ORDINAL = re.compile(r'\d+(?:st|nd|rd|th)', re.IGNORECASE)
@@ -39,8 +40,9 @@ class PromptFacts:
     def __init__(self, prompt: str, context: ParseContext) -> None:
         self.prompt = prompt
         self.context = context
-        tagged = tag(tokenize(prompt), landmark_phrases(context.landmark_names))
-        self.atoms: tuple[Atom, ...] = tagged.atoms
+        tokens = tokenize(prompt)
+        tagged = tag(tokens, landmark_phrases(context.landmark_names))
+        self.atoms: tuple[Atom, ...] = tuple(_told_to_act(tagged.atoms, tokens))
         self._even = prompt.translate(_QUOTES)
 
     @property
@@ -105,6 +107,20 @@ class PromptFacts:
         after = r'(?!\d|[.,]\d)' if ends.isdigit() else r'(?!\w)' if ends.isalnum() else ''
         found = re.finditer(f'{before}{pattern}{after}', self._even, re.IGNORECASE)
         return tuple(Span(start=m.start(), end=m.end()) for m in found)
+
+
+def _told_to_act(atoms: Sequence[Atom], tokens: Sequence[Token]) -> Iterator[Atom]:
+    """Yield the atoms; `let the truck stop`: who is told to act is no place."""
+    causing = False
+    for atom in atoms:
+        place = atom.noun is not None and atom.noun.kind is NounKind.MISSING_LANDMARK
+        within = [t for t in tokens if atom.start <= t.start and t.end <= atom.end]
+        if place and causing and len(within) > 1:
+            yield from tag(within[:-1], {}).atoms
+            yield from tag(within[-1:], {}).atoms
+        else:
+            yield atom
+        causing = atom.kind is AtomKind.CAUSATIVE
 
 
 def overlap(a: Span | Atom | Measure, b: Span | Atom | Measure) -> bool:
