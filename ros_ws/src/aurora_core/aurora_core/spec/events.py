@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, Self, get_args
 
 from pydantic import Field, StringConstraints, model_validator
 
@@ -87,6 +87,10 @@ class EventDoneTrigger(Element):
     after_s: Parameter | None = None
 
 
+# What a ground agent can be made to do.
+AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
+
+
 class BehaviorDoneTrigger(Element):
     """The stated time of what an agent does is over: it has stood, or moved, for as long."""
 
@@ -97,10 +101,9 @@ class BehaviorDoneTrigger(Element):
     @model_validator(mode='after')
     def _lasts(self) -> Self:
         if self.behavior not in STANDING | MOVING:
-            raise ValueError(
-                f'{self.behavior} lasts for no stated time: make it an event without a trigger, '
-                'and wait for that one (event_done)'
-            )
+            event = 'make it an event without a trigger, and wait for that one (event_done)'
+            told = event if self.behavior in get_args(AgentDo) else 'nobody sees its end'
+            raise ValueError(f'{self.behavior} lasts for no stated time: {told}')
         return self
 
 
@@ -143,10 +146,6 @@ class SendMessage(Element):
     sender: Id
     receiver: Id
     text: Annotated[str, StringConstraints(min_length=1, max_length=200)] | None = omitted(None)
-
-
-# What a ground agent can be made to do.
-AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
 
 
 # What takes speed off, and may be told how hard.
