@@ -56,6 +56,7 @@ ANOTHER_LOAD: dict[str, Any] = {
     'wind_mean_east_mps': 7.0,
 }
 LIMIT_S = 120.0
+AGAIN = 5
 TWIN_LIMIT_S = 4.0
 
 
@@ -152,6 +153,11 @@ class Intervention:
     def end(self) -> None:
         self._over = True
 
+    @property
+    def begun(self) -> bool:
+        """Whether the bridge was heard when there was something to do."""
+        return self._over
+
     def _on_heartbeat(self, message: Heartbeat) -> None:
         armed = message.node == 'uav_bridge' and message.state == Heartbeat.BUSY
         # Refused whenever it comes; for the detour the run must not have begun.
@@ -161,7 +167,7 @@ class Intervention:
             self._loaded.put(message.run_number)
 
     def _work(self) -> None:
-        run_number = self._loaded.get(timeout=LIMIT_S)
+        run_number = self._loaded.get()
         try:
             for number in (run_number + 1, run_number) if self._detour else (run_number,):
                 self._play.call(on.UAV_LOAD, LIMIT_S, run_number=number, **ANOTHER_LOAD)
@@ -267,6 +273,9 @@ def test_who_loads_a_bridge_otherwise_changes_no_run(graph: RunningGraph, detour
     answers: queue.Queue[AuroraError | None] = queue.Queue()
     intervention = Intervention(graph.play, answers, detour=detour)
     result = run(graph, SHORT)
+    for _ in range(AGAIN):  # a bridge that is loaded for less than a heartbeat is not heard
+        if not intervention.begun:
+            result = run(graph, SHORT)
     refused = answers.get(timeout=LIMIT_S)
     intervention.end()
     report = json.loads(result.report_json)
