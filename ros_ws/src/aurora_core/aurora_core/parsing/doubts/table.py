@@ -29,6 +29,7 @@ from aurora_core.parsing.doubts.bodies import (
     twins,
     without_part,
 )
+from aurora_core.parsing.doubts.bounds import distances_as_heights, sides_turned
 from aurora_core.parsing.doubts.deeds import deeds_at_places, stops_at_places
 from aurora_core.parsing.doubts.flights import (
     flights_at_once,
@@ -104,6 +105,8 @@ _CHECKS: tuple[_Check, ...] = (
     standoffs_as_heights,
     heights_over_fliers,
     heights_from_somebody,
+    distances_as_heights,
+    sides_turned,
     heights_passed_twice,
     hovers_over_movers,
     heights_of_both,
