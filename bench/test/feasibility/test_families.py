@@ -83,7 +83,7 @@ def test_every_push_goes_over_a_limit_of_a_request_that_fits_it() -> None:
 
 def test_the_typed_requests_are_on_both_sides_of_every_reason() -> None:
     typed = tuple(typed_cases())
-    assert len({(c.source, c.id) for c in typed}) == len(typed) == 206
+    assert len({(c.source, c.id) for c in typed}) == len(typed) == 208
     refused = {c.because[0] for c in typed if c.must_be_refused}
     kept = {c.id.partition('-kept-')[0] for c in typed if not c.must_be_refused}
     assert refused == kept >= {'geofence', 'clearance', 'sensing_range', 'comm_range', 'count'}
