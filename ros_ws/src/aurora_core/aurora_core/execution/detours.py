@@ -10,7 +10,7 @@ it is flown.
 from __future__ import annotations
 
 from heapq import heappop, heappush
-from itertools import pairwise
+from itertools import pairwise, product
 from math import ceil, floor
 
 import numpy as np
@@ -19,6 +19,7 @@ import numpy.typing as npt
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine, TargetMotion
+from aurora_core.mission.plan import MissionPlan
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.layout import UavColumn
 
@@ -44,6 +45,16 @@ _HIGHER_M = 10.0
 # Ways round are looked for on a grid that is so fine, and so much wider than the way (m).
 _GRID_M = 15.0
 _BESIDE_M = 200.0
+# Who cannot come to the height of its way where it is does so at the nearest place that lets it:
+# so far away (m), in such directions (ahead, left; of any length), straight on first.
+_LEAVES_M = tuple(5.0 * k for k in range(21))
+_TURNS = (
+    (1.0, 0.0), (2.0, 1.0), (2.0, -1.0), (1.0, 1.0), (1.0, -1.0), (1.0, 2.0), (1.0, -2.0),
+    (0.0, 1.0), (0.0, -1.0), (-1.0, 2.0), (-1.0, -2.0), (-1.0, 1.0), (-1.0, -1.0), (-2.0, 1.0),
+    (-2.0, -1.0), (-1.0, 0.0),
+)  # fmt: skip
+# A way at a stated height is looked for on a finer grid: it has no other height to go by (m).
+_FINE_GRID_M = 5.0
 _NEIGHBOURS = tuple((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0))
 
 
@@ -85,7 +96,7 @@ class Detours:
             self._keep_clear(machine, z)
             return
         goal = _goal(machine, target)
-        if goal is None:
+        if goal is None or (_levels_off(machine) and self._stays_level(machine, state, goal)):
             return
         if self.is_straight((x, y, z), goal):
             machine.way_there.straight()
@@ -103,6 +114,48 @@ class Detours:
         elif not machine.way_there.by:
             machine.way_there.by = ((*at, z),)
 
+    def _stays_level(self, machine: MissionMachine, state: FloatArray, goal: Point3) -> bool:
+        """Tell whether a UAV needs no other way than at the height of its goal; let it fly that.
+
+        Where there is none it comes as it would otherwise.
+        """
+        way, here = machine.way_there, (*machine.stop_point(state), float(state[UavColumn.Z]))
+        foot = (*here[:2], goal[2])
+        if self._free((here, foot, goal), self._clearance_m + _SPARE_M):
+            way.level_off(abs(here[2] - goal[2]))
+            return True
+        if way.level:
+            way.by, way.level = self.level_way(here, goal), False
+        return bool(way.by) or _is_planned(machine)
+
+    def level_way(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
+        """Return a way at the height of its goal, which it comes to at the nearest free place.
+
+        Args:
+            here: Where the UAV is (x, y, z in m).
+            goal: Where it goes.
+
+        Returns:
+            The points to fly by, the goal as the last; none where no such way is found.
+        """
+        clear_m, away_m = self._clearance_m + _SPARE_M, norm2(goal[0] - here[0], goal[1] - here[1])
+        if away_m == 0.0:
+            return ()
+        ahead_x, ahead_y = (goal[0] - here[0]) / away_m, (goal[1] - here[1]) / away_m
+        for leaves_m, (along, left) in product(_LEAVES_M, _TURNS):
+            off_m = leaves_m / norm2(along, left)
+            x = here[0] + off_m * (along * ahead_x - left * ahead_y)
+            y = here[1] + off_m * (along * ahead_y + left * ahead_x)
+            above, foot = (x, y, here[2]), (x, y, goal[2])
+            if self._free((above, foot), clear_m) and self._free((here, above), self._clearance_m):
+                leaves = (above, foot) if leaves_m > 0.0 else (foot,)
+                if self._free((foot, goal), clear_m):
+                    return (*leaves, goal)
+                onward = self._round(foot, goal, _FINE_GRID_M)
+                free = bool(onward) and self._free((foot, *onward, goal), self._clearance_m)
+                return (*leaves, *onward, goal) if free else ()
+        return ()
+
     def is_straight(self, here: Point3, goal: Point3) -> bool:
         """Tell whether the straight way is free at both heights."""
         return all(
@@ -112,7 +165,7 @@ class Detours:
 
     def way(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
         """Return the points to fly by before the goal; none where no way is found."""
-        ways = (self._over(here, goal), self._round(here, goal))
+        ways = (self._over(here, goal), self._round(here, goal, _GRID_M))
         found = [way for way in ways if way]
         return min(found, key=lambda way: _length_m(here, (*way, goal)), default=())
 
@@ -130,18 +183,18 @@ class Detours:
             height_m += _HIGHER_M
         return ()
 
-    def _round(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
+    def _round(self, here: Point3, goal: Point3, grid_m: float) -> tuple[Point3, ...]:
         """Return the shortest way at the greater of both heights on a grid round the straight."""
         z_m, wide_m = max(here[2], goal[2]), self._clearance_m + _WIDE_M
-        low = [floor((min(a, b) - _BESIDE_M) / _GRID_M) for a, b in zip(here, goal, strict=True)]
-        high = [ceil((max(a, b) + _BESIDE_M) / _GRID_M) for a, b in zip(here, goal, strict=True)]
+        low = [floor((min(a, b) - _BESIDE_M) / grid_m) for a, b in zip(here, goal, strict=True)]
+        high = [ceil((max(a, b) + _BESIDE_M) / grid_m) for a, b in zip(here, goal, strict=True)]
         xs, ys = (
-            np.arange(low[k], high[k] + 1, dtype=np.float64) * np.float64(_GRID_M) for k in (0, 1)
+            np.arange(low[k], high[k] + 1, dtype=np.float64) * np.float64(grid_m) for k in (0, 1)
         )
         grid = np.stack([*np.meshgrid(xs, ys, indexing='ij'), np.full((len(xs), len(ys)), z_m)])
         clear_m = self._air.obstacles.clearance_series(grid.reshape(3, -1).T)
         # Between two neighbours that are so far from everything the way keeps its clearance.
-        free = clear_m.reshape(len(xs), len(ys)) >= wide_m + 0.75 * _GRID_M
+        free = clear_m.reshape(len(xs), len(ys)) >= wide_m + 0.75 * grid_m
         first, last = _nearest(free, xs, ys, here[:2]), _nearest(free, xs, ys, goal[:2])
         if first is None or last is None:
             return ()
@@ -174,11 +227,30 @@ def _goal(machine: MissionMachine, target: TargetMotion | None) -> Point3 | None
             return None
         x_m, y_m = mission.offset_m
         return target.x_m + x_m, target.y_m + y_m, mission.altitude_m
-    index = machine.plan.missions.index(mission)
-    before = machine.plan.missions[index - 1] if index > 0 else None
-    if before is None or not (mission.waits or before.mode is _TRACK or not before.is_placed):
-        return None
-    return mission.waypoints[0] if mission.waypoints else mission.hover_point
+    point = mission.waypoints[0] if mission.waypoints else mission.hover_point
+    if point is None or not _levels_off(machine):
+        return None if _is_planned(machine) else point
+    return (*point[:2], machine.altitude_m(mission))
+
+
+def _before(machine: MissionMachine) -> MissionPlan | None:
+    """Return the mission before the present one, None for the first."""
+    assert machine.mission is not None
+    index = machine.plan.missions.index(machine.mission)
+    return machine.plan.missions[index - 1] if index > 0 else None
+
+
+def _is_planned(machine: MissionMachine) -> bool:
+    """Tell whether the way to the present mission was planned: where it begins is known before."""
+    mission, before = machine.mission, _before(machine)
+    unknown = before is not None and (before.mode is _TRACK or not before.is_placed)
+    return mission is not None and (before is None or not (mission.waits or unknown))
+
+
+def _levels_off(machine: MissionMachine) -> bool:
+    """Tell whether the present mission comes to its height before its way."""
+    mission = machine.mission
+    return mission is not None and mission.level_way and _before(machine) is not None
 
 
 def _length_m(here: Point3, way: tuple[Point3, ...]) -> float:
