@@ -10,12 +10,13 @@ it is flown.
 from __future__ import annotations
 
 from heapq import heappop, heappush
-from itertools import pairwise, product
+from itertools import pairwise
 from math import ceil, floor
 
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.execution.level_ways import NEIGHBOURS, SPARE_M, level_way
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine, TargetMotion
@@ -36,7 +37,6 @@ _LOOKS_EVERY_S = 0.5
 _PLANS_EVERY_S = 2.0
 # A straight way with less than the least clearance and so much is left, and a detour keeps that
 # much more (m).
-_SPARE_M = 0.5
 _WIDE_M = 2.0
 # A metre up or down takes as long as so many across.
 _SLOWER = 4.0
@@ -45,17 +45,6 @@ _HIGHER_M = 10.0
 # Ways round are looked for on a grid that is so fine, and so much wider than the way (m).
 _GRID_M = 15.0
 _BESIDE_M = 200.0
-# Who cannot come to the height of its way where it is does so at the nearest place that lets it:
-# so far away (m), in such directions (ahead, left; of any length), straight on first.
-_LEAVES_M = tuple(5.0 * k for k in range(21))
-_TURNS = (
-    (1.0, 0.0), (2.0, 1.0), (2.0, -1.0), (1.0, 1.0), (1.0, -1.0), (1.0, 2.0), (1.0, -2.0),
-    (0.0, 1.0), (0.0, -1.0), (-1.0, 2.0), (-1.0, -2.0), (-1.0, 1.0), (-1.0, -1.0), (-2.0, 1.0),
-    (-2.0, -1.0), (-1.0, 0.0),
-)  # fmt: skip
-# A way at a stated height is looked for on a finer grid: it has no other height to go by (m).
-_FINE_GRID_M = 5.0
-_NEIGHBOURS = tuple((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0))
 
 
 class Detours:
@@ -121,51 +110,23 @@ class Detours:
         """
         way, here = machine.way_there, (*machine.stop_point(state), float(state[UavColumn.Z]))
         foot = (*here[:2], goal[2])
-        if self._free((here, foot, goal), self._clearance_m + _SPARE_M):
+        if self._free((here, foot, goal), self._clearance_m + SPARE_M):
             way.level_off(abs(here[2] - goal[2]))
             return True
         if way.level:
-            way.by, way.level = self.level_way(here, goal), False
+            way.by, way.level = level_way(self._air, here, goal, self._clearance_m), False
         return bool(way.by) or _is_planned(machine)
-
-    def level_way(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
-        """Return a way at the height of its goal, which it comes to at the nearest free place.
-
-        Args:
-            here: Where the UAV is (x, y, z in m).
-            goal: Where it goes.
-
-        Returns:
-            The points to fly by, the goal as the last; none where no such way is found.
-        """
-        clear_m, away_m = self._clearance_m + _SPARE_M, norm2(goal[0] - here[0], goal[1] - here[1])
-        if away_m == 0.0:
-            return ()
-        ahead_x, ahead_y = (goal[0] - here[0]) / away_m, (goal[1] - here[1]) / away_m
-        for leaves_m, (along, left) in product(_LEAVES_M, _TURNS):
-            off_m = leaves_m / norm2(along, left)
-            x = here[0] + off_m * (along * ahead_x - left * ahead_y)
-            y = here[1] + off_m * (along * ahead_y + left * ahead_x)
-            above, foot = (x, y, here[2]), (x, y, goal[2])
-            if self._free((above, foot), clear_m) and self._free((here, above), self._clearance_m):
-                leaves = (above, foot) if leaves_m > 0.0 else (foot,)
-                if self._free((foot, goal), clear_m):
-                    return (*leaves, goal)
-                onward = self._round(foot, goal, _FINE_GRID_M)
-                free = bool(onward) and self._free((foot, *onward, goal), self._clearance_m)
-                return (*leaves, *onward, goal) if free else ()
-        return ()
 
     def is_straight(self, here: Point3, goal: Point3) -> bool:
         """Tell whether the straight way is free at both heights."""
         return all(
-            self._free(((*here[:2], z), (*goal[:2], z)), self._clearance_m + _SPARE_M)
+            self._free(((*here[:2], z), (*goal[:2], z)), self._clearance_m + SPARE_M)
             for z in sorted({here[2], goal[2]})
         )
 
     def way(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
         """Return the points to fly by before the goal; none where no way is found."""
-        ways = (self._over(here, goal), self._round(here, goal, _GRID_M))
+        ways = (self._over(here, goal), self._round(here, goal))
         found = [way for way in ways if way]
         return min(found, key=lambda way: _length_m(here, (*way, goal)), default=())
 
@@ -183,18 +144,18 @@ class Detours:
             height_m += _HIGHER_M
         return ()
 
-    def _round(self, here: Point3, goal: Point3, grid_m: float) -> tuple[Point3, ...]:
+    def _round(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
         """Return the shortest way at the greater of both heights on a grid round the straight."""
         z_m, wide_m = max(here[2], goal[2]), self._clearance_m + _WIDE_M
-        low = [floor((min(a, b) - _BESIDE_M) / grid_m) for a, b in zip(here, goal, strict=True)]
-        high = [ceil((max(a, b) + _BESIDE_M) / grid_m) for a, b in zip(here, goal, strict=True)]
+        low = [floor((min(a, b) - _BESIDE_M) / _GRID_M) for a, b in zip(here, goal, strict=True)]
+        high = [ceil((max(a, b) + _BESIDE_M) / _GRID_M) for a, b in zip(here, goal, strict=True)]
         xs, ys = (
-            np.arange(low[k], high[k] + 1, dtype=np.float64) * np.float64(grid_m) for k in (0, 1)
+            np.arange(low[k], high[k] + 1, dtype=np.float64) * np.float64(_GRID_M) for k in (0, 1)
         )
         grid = np.stack([*np.meshgrid(xs, ys, indexing='ij'), np.full((len(xs), len(ys)), z_m)])
         clear_m = self._air.obstacles.clearance_series(grid.reshape(3, -1).T)
         # Between two neighbours that are so far from everything the way keeps its clearance.
-        free = clear_m.reshape(len(xs), len(ys)) >= wide_m + 0.75 * grid_m
+        free = clear_m.reshape(len(xs), len(ys)) >= wide_m + 0.75 * _GRID_M
         first, last = _nearest(free, xs, ys, here[:2]), _nearest(free, xs, ys, goal[:2])
         if first is None or last is None:
             return ()
@@ -289,7 +250,7 @@ def _shortest(
             return way[::-1]
         if so_far > cost[cell]:
             continue
-        for i, j in _NEIGHBOURS:
+        for i, j in NEIGHBOURS:
             onward = (cell[0] + i, cell[1] + j)
             inside = 0 <= onward[0] < free.shape[0] and 0 <= onward[1] < free.shape[1]
             if not inside or not free[onward]:
