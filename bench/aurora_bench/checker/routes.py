@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from aurora_bench.checker import flights, limits
+from aurora_bench.checker import flights, limits, ways
 from aurora_bench.checker.answers import (
     Judged,
     Outcome,
@@ -65,7 +65,8 @@ def navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
         ]
         flown = all_of(rest) if all(p.outcome is Outcome.HOLDS for p in rest) else flown
     speed = leg_speed(flight, requirement, flight.ticks)
-    return all_of([flown, speed, *_ends(flight, requirement), *avoided(flight, requirement)])
+    rest = [*_ends(flight, requirement), *avoided(flight, requirement)]
+    return all_of([flown, speed, ways.level(flight, requirement), *rest])
 
 
 def _past_the_way(flight: Flight, level: BoolArray, reached: int) -> int | None:

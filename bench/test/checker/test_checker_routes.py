@@ -229,3 +229,27 @@ def test_a_climb_leaves_a_route_its_course(stage: Any) -> None:
     stage.ground('car2', 'car', 100.0, -1.65)
     assert stage.says(asked, climb) == 'holds'
     assert stage.says({**asked, 'altitude_m': 40}, climb) == 'does_not'
+
+
+@pytest.mark.parametrize(
+    ('leaves_s', 'down_s', 'outcome'),
+    [(24.0, 14.0, 'holds'), (14.0, 25.0, 'does_not'), (14.0, 14.0, 'does_not')],
+    ids=['first', 'at the end', 'on the way'],
+)
+def test_the_height_of_a_flight_to_a_place_is_that_of_the_way(
+    stage: Any, leaves_s: float, down_s: float, outcome: str
+) -> None:
+    """A second mission of 210 m at 10 m/s, sinking from 70 m to 40 m in 10 s."""
+    course = fly_route([(0, 30), (210, 30)], 40.0, 10.0, leaves_s)
+    levels = ([down_s, down_s + 10.0], [70, 40])
+    stage.uav('drone', lambda t: (*course(t)[:2], np.interp(t, *levels)), ends=(14.0, 50.0))
+    there = {
+        'kind': 'mission',
+        'ref': 'm1',
+        'uav': 'drone',
+        'mode': 'navigate',
+        'target': 'City Hall',
+        'altitude_m': 40,
+    }
+    assert stage.says(there) == outcome
+    assert stage.says({**there, 'altitude_m': None}) == 'holds'

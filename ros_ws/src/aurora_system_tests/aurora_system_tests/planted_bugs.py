@@ -285,6 +285,12 @@ def _straight(plan: UavPlan) -> UavPlan:
     return plan.model_copy(update={'missions': missions})
 
 
+def _slanting(plan: UavPlan) -> UavPlan:
+    """Plan to climb and sink on the way, and not before it."""
+    missions = tuple(m.model_copy(update={'level_way': False}) for m in plan.missions)
+    return plan.model_copy(update={'missions': missions})
+
+
 def _at_full_speed(plan: UavPlan) -> UavPlan:
     """Plan to fly routes 1 m/s faster."""
     missions = tuple(m.model_copy(update={'speed_mps': m.speed_mps + 1.0}) for m in plan.missions)
@@ -415,6 +421,12 @@ PLANTED = (
         with_machines(plan=_straight),
         'condition:safety.clearance.uav1',
         'condition:safety.collision.uav1',
+    ),
+    _planted(
+        'climbs on its way',
+        'A drone hovers over the market at 30 m for 5 s, then flies to City Hall at 80 m.',
+        with_machines(plan=_slanting),
+        'condition:m2.way_altitude',
     ),
     _planted(
         'elsewhere instead of where it is',

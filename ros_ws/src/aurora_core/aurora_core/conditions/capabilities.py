@@ -107,6 +107,8 @@ def undone_events(spec: ScenarioSpec, grounded: GroundedScenario) -> dict[str, s
             undone[event.id] = f'action {event.action.do}'
         elif bodies_of(event) & absent:
             undone[event.id] = ''
+        elif _flies_after_landing(event, spec):
+            undone[event.id] = 'a flight after a landing'
     while blocked := [
         e for e in spec.events if e.id not in undone and _is_blocked(e, spec, undone)
     ]:
@@ -153,6 +155,16 @@ def _can_change(action: UavAction, spec: ScenarioSpec) -> bool:
     waits = [begun_by(spec, m) is not None for m in own]
     ids = [m.id for m in own]
     return action.mission in ids and (not waits[0] or all(waits))
+
+
+def _flies_after_landing(event: Event, spec: ScenarioSpec) -> bool:
+    """Tell whether a UAV that an event has let land is to fly on then: it stays down."""
+    action, over = event.action, event.trigger
+    if not isinstance(action, UavAction) or not isinstance(over, EventDoneTrigger):
+        return False
+    before = next(e.action for e in spec.events if e.id == over.event)
+    lands = isinstance(before, UavAction) and before.do == 'land' and before.uav == action.uav
+    return lands and action.do != 'land'
 
 
 def _is_blocked(event: Event, spec: ScenarioSpec, undone: Mapping[str, str]) -> bool:

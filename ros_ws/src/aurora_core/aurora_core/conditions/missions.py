@@ -87,6 +87,8 @@ def _numbers(
     """
     if altitude := _stated(mission.altitude_m):
         yield altitude_fraction.implied(inputs, arguments, altitude, source)
+        if mission.has_a_level_way:
+            yield altitude_fraction.on_the_way(inputs, arguments, altitude, source)
     if duration := _stated(mission.duration_s):
         yield phase_duration.implied(inputs, arguments, duration, source)
     standoff = _stated(mission.standoff_m)

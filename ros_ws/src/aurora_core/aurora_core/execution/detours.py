@@ -16,9 +16,11 @@ from math import ceil, floor
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.execution.level_ways import NEIGHBOURS, SPARE_M, level_way
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine, TargetMotion
+from aurora_core.mission.plan import MissionPlan
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.layout import UavColumn
 
@@ -35,7 +37,6 @@ _LOOKS_EVERY_S = 0.5
 _PLANS_EVERY_S = 2.0
 # A straight way with less than the least clearance and so much is left, and a detour keeps that
 # much more (m).
-_SPARE_M = 0.5
 _WIDE_M = 2.0
 # A metre up or down takes as long as so many across.
 _SLOWER = 4.0
@@ -44,7 +45,6 @@ _HIGHER_M = 10.0
 # Ways round are looked for on a grid that is so fine, and so much wider than the way (m).
 _GRID_M = 15.0
 _BESIDE_M = 200.0
-_NEIGHBOURS = tuple((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0))
 
 
 class Detours:
@@ -85,7 +85,7 @@ class Detours:
             self._keep_clear(machine, z)
             return
         goal = _goal(machine, target)
-        if goal is None:
+        if goal is None or (_levels_off(machine) and self._stays_level(machine, state, goal)):
             return
         if self.is_straight((x, y, z), goal):
             machine.way_there.straight()
@@ -103,10 +103,24 @@ class Detours:
         elif not machine.way_there.by:
             machine.way_there.by = ((*at, z),)
 
+    def _stays_level(self, machine: MissionMachine, state: FloatArray, goal: Point3) -> bool:
+        """Tell whether a UAV needs no other way than at the height of its goal; let it fly that.
+
+        Where there is none it comes as it would otherwise.
+        """
+        way, here = machine.way_there, (*machine.stop_point(state), float(state[UavColumn.Z]))
+        foot = (*here[:2], goal[2])
+        if self._free((here, foot, goal), self._clearance_m + SPARE_M):
+            way.level_off(abs(here[2] - goal[2]))
+            return True
+        if way.level:
+            way.by, way.level = level_way(self._air, here, goal, self._clearance_m), False
+        return bool(way.by) or _is_planned(machine)
+
     def is_straight(self, here: Point3, goal: Point3) -> bool:
         """Tell whether the straight way is free at both heights."""
         return all(
-            self._free(((*here[:2], z), (*goal[:2], z)), self._clearance_m + _SPARE_M)
+            self._free(((*here[:2], z), (*goal[:2], z)), self._clearance_m + SPARE_M)
             for z in sorted({here[2], goal[2]})
         )
 
@@ -174,11 +188,30 @@ def _goal(machine: MissionMachine, target: TargetMotion | None) -> Point3 | None
             return None
         x_m, y_m = mission.offset_m
         return target.x_m + x_m, target.y_m + y_m, mission.altitude_m
-    index = machine.plan.missions.index(mission)
-    before = machine.plan.missions[index - 1] if index > 0 else None
-    if before is None or not (mission.waits or before.mode is _TRACK or not before.is_placed):
-        return None
-    return mission.waypoints[0] if mission.waypoints else mission.hover_point
+    point = mission.waypoints[0] if mission.waypoints else mission.hover_point
+    if point is None or not _levels_off(machine):
+        return None if _is_planned(machine) else point
+    return (*point[:2], machine.altitude_m(mission))
+
+
+def _before(machine: MissionMachine) -> MissionPlan | None:
+    """Return the mission before the present one, None for the first."""
+    assert machine.mission is not None
+    index = machine.plan.missions.index(machine.mission)
+    return machine.plan.missions[index - 1] if index > 0 else None
+
+
+def _is_planned(machine: MissionMachine) -> bool:
+    """Tell whether the way to the present mission was planned: where it begins is known before."""
+    mission, before = machine.mission, _before(machine)
+    unknown = before is not None and (before.mode is _TRACK or not before.is_placed)
+    return mission is not None and (before is None or not (mission.waits or unknown))
+
+
+def _levels_off(machine: MissionMachine) -> bool:
+    """Tell whether the present mission comes to its height before its way."""
+    mission = machine.mission
+    return mission is not None and mission.level_way and _before(machine) is not None
 
 
 def _length_m(here: Point3, way: tuple[Point3, ...]) -> float:
@@ -217,7 +250,7 @@ def _shortest(
             return way[::-1]
         if so_far > cost[cell]:
             continue
-        for i, j in _NEIGHBOURS:
+        for i, j in NEIGHBOURS:
             onward = (cell[0] + i, cell[1] + j)
             inside = 0 <= onward[0] < free.shape[0] and 0 <= onward[1] < free.shape[1]
             if not inside or not free[onward]:

@@ -52,7 +52,7 @@ from aurora_core.trace.roster import Roster, RosterEntry
 
 # Raised whenever the same states give other commands or records than before: what was recorded
 # with another version cannot be recomputed here.
-EXECUTOR_VERSION = 19
+EXECUTOR_VERSION = 20
 
 # Box of the multirotor in the roster (m): motor to motor with propellers, and its height.
 UAV_SIZE_M = (0.7, 0.7, 0.3)

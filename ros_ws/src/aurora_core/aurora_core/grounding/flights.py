@@ -449,6 +449,7 @@ class FlightPlanner:
             ascent_tolerance_m=ascent_tolerance_m(mission, self._limits, self._tolerances),
             hover_point=hover_point,
             duration_s=mission.duration_s.value,
+            level_way=mission.has_a_level_way,
         )
 
     def _hover(

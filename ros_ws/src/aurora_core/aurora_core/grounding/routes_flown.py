@@ -375,6 +375,7 @@ class RoutePlanner:
             waypoints=way,
             speed_mps=speed.value,
             way_mps=speed.value if shows else None,
+            level_way=mission.has_a_level_way,
         )
 
     def _lasting(self, mission: UavMission, plan: MissionPlan) -> MissionPlan:

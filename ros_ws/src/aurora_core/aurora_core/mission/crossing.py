@@ -14,6 +14,8 @@ _BY_M = 1.0
 # So near to its height it turns to the way across, so near above its goal it goes down (m).
 _UP_M = 0.5
 _ABOVE_M = 2.0
+# So far from the height of its way it has to come back to it (m).
+_OFF_M = 1.5
 
 
 class Crossing:
@@ -21,13 +23,16 @@ class Crossing:
 
     Args:
         over_m: Height of the way across; None: straight.
+        level: To the height of its goal first, wherever that leads, then across at it.
 
     Attributes:
         by: Points to fly by instead (x, y, z in m), as long as whoever looks ahead gives some.
+        level: It is to be flown so, and has not come to its height yet.
     """
 
-    def __init__(self, over_m: float | None) -> None:
+    def __init__(self, over_m: float | None, *, level: bool = False) -> None:
         self._over_m = over_m
+        self.level = level
         self._from: tuple[float, float] | None = None
         self.by: tuple[tuple[float, float, float], ...] = ()
 
@@ -41,6 +46,10 @@ class Crossing:
         """
         if self.by:
             return self._next_point(reference), (0.0, 0.0)
+        if self.level:
+            self._from = rest if self._from is None else self._from
+            self.level = abs(reference.z - goal[0][2]) > _UP_M
+            return (*self._from, goal[0][2]), (0.0, 0.0)
         if self._over_m is None:
             return goal
         (x, y, _), velocity = goal
@@ -56,6 +65,12 @@ class Crossing:
     def straight(self) -> None:
         """Go on straight: whoever looks ahead sees that nothing is in between any more."""
         self._over_m, self.by = None, ()
+
+    def level_off(self, off_m: float) -> None:
+        """Go on at the height of the goal, so far (m) from it: nothing is in between there."""
+        if self.by or self._over_m is not None or off_m > _OFF_M:
+            self.straight()
+            self.level, self._from = True, None
 
     def _next_point(self, reference: PursuitReference) -> tuple[float, float, float]:
         """Return the point of the given way that is next; the last one stays."""

@@ -302,7 +302,7 @@ class MissionMachine:
             if not mission.keeps_level and self.phase != _ASCENT:
                 self._settings = self._usual
                 self._level_m = None  # what is asked for during the ascent still counts
-            self.way_there = Crossing(mission.over_m)
+            self.way_there = Crossing(mission.over_m, level=mission.level_way and self._index > 0)
         self.phase = phase
         self._route = None
 
@@ -317,7 +317,8 @@ class MissionMachine:
         self._held_ticks += 1
         self.done = self.missions_done and self._held_ticks * self._dt >= HOLD_S
 
-    def _altitude_m(self, mission: MissionPlan) -> float:
+    def altitude_m(self, mission: MissionPlan) -> float:
+        """Return how high a mission is flown (m above ground), as events have told it since."""
         return mission.altitude_m if self._level_m is None else self._level_m
 
     def _fly(
@@ -349,7 +350,7 @@ class MissionMachine:
         self, mission: MissionPlan, target: TargetMotion | None
     ) -> tuple[tuple[float, float, float], tuple[float, float]]:
         """Return the point of a holding mission and its velocity; asked once a tick."""
-        z_m = self._altitude_m(mission)
+        z_m = self.altitude_m(mission)
         if mission.hover_point is not None:
             x_m, y_m, _ = mission.hover_point
             return (x_m, y_m, z_m), (0.0, 0.0)
@@ -383,7 +384,7 @@ class MissionMachine:
     ) -> bool:
         x, y, z = state[_X : _Z + 1]
         stays_m = None if self.staying is None else self.staying.away_m(state)
-        if abs(z - self._altitude_m(mission)) > mission.capture_altitude_m:
+        if abs(z - self.altitude_m(mission)) > mission.capture_altitude_m:
             return False
         if stays_m is not None:
             return stays_m <= mission.capture_horizontal_m

@@ -31,6 +31,8 @@ class MissionPlan(Document):
         way_mps: Navigate: speed at most on the way to the first point; None: the usual one.
         over_m: So high it crosses to where it begins: up first, then across, then down. None:
             straight.
+        level_way: After another mission it changes its height first, and comes to where it begins
+            as high as it asks for.
         waits: An event lets it begin; until then the UAV stays where the one before has led it.
         until_event: Nothing but an event ends it: the next one begins, or the UAV lands.
     """
@@ -51,6 +53,7 @@ class MissionPlan(Document):
     speed_mps: FiniteFloat = 8.0
     way_mps: FiniteFloat | None = omitted(None)
     over_m: FiniteFloat | None = omitted(None)
+    level_way: bool = omitted(False)
     waits: bool = omitted(False)
     until_event: bool = omitted(False)
     rest_mps: FiniteFloat | None = omitted(None)

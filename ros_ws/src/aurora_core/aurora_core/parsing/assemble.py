@@ -132,6 +132,7 @@ def _mission(draft: MissionDraft, altitude: Parameter, by_event: bool) -> UavMis
         target_inferred=draft.target_inferred,
         start=draft.start,
         altitude_m=altitude,
+        way_at_altitude=draft.way_at_altitude and draft.mode is MissionMode.HOVER,
         standoff_m=standoff,
         bearing_deg=draft.bearing,
         side=draft.side,

@@ -80,6 +80,7 @@ class MissionDraft:
     start: str | None = None
     needs_target: bool = False
     altitude: Parameter | None = None
+    way_at_altitude: bool = False
     standoff: Parameter | None = None
     bearing: Parameter | None = None
     side: Side | None = None

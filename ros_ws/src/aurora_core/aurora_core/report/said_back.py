@@ -270,6 +270,7 @@ def _flies(mission: UavMission, *, leaves: bool, stays: bool) -> str:
     if mission.over_streets:
         what += ' over the streets'
     numbers = ''.join(f', {text}' for text in _named_numbers(mission, stated=True))
+    numbers += ', on the way there, too' if mission.way_at_altitude else ''
     return what + numbers + (', and stays in the air' if mission.ends_in_flight else '')
 
 

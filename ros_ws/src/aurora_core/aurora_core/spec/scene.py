@@ -177,6 +177,8 @@ class UavMission(Element):
         target_inferred: The prompt names no target; the scene rules chose it.
         start: Place that the way to the target begins at (`from A to B`); None: anywhere.
         altitude_m: Above ground.
+        way_at_altitude: The way there is told with it ("flies to the tower at 40 m and hovers
+            there"); see `has_a_level_way`.
         standoff_m: Horizontal distance from the target (track).
         bearing_deg: Compass bearing of the UAV from the target, when stated.
         side: Of the moving target, relative to its heading (track).
@@ -195,6 +197,7 @@ class UavMission(Element):
     target_inferred: bool = False
     start: PlaceRef | None = omitted(None)
     altitude_m: Parameter
+    way_at_altitude: bool = omitted(False)
     standoff_m: Parameter | None = None
     bearing_deg: Parameter | None = None
     side: Side | None = omitted(None)
@@ -220,6 +223,20 @@ class UavMission(Element):
         straight = self.pattern not in (None, Pattern.ORBIT)
         return self.over_streets or (straight and self.target == Place.MAIN_ROAD.value)
 
+    @property
+    def has_a_level_way(self) -> bool:
+        """Tell whether the stated altitude is that of the way to where it begins, too.
+
+        "Flies to the tower at 40 m" is nothing but a way. How high a UAV comes to where it hovers,
+        tracks or begins a pattern at 40 m is open, unless the way itself is told so.
+        """
+        if self.altitude_m.provenance is not Provenance.EXPLICIT:
+            return False
+        count = self.waypoint_count
+        there = self.pattern is Pattern.WAYPOINTS and self.target is not None
+        is_way = there and self.start is None and count is not None and count.value == 1.0
+        return is_way or self.way_at_altitude
+
     @model_validator(mode='after')
     def _mode_has_its_fields(self) -> Self:
         if self.mode is MissionMode.TRACK and (self.target is None or self.standoff_m is None):
@@ -232,6 +249,8 @@ class UavMission(Element):
             raise ValueError(f'mission {self.id}: only a route has waypoints to dwell at')
         if self.mode is not MissionMode.TRACK and self.side is not None:
             raise ValueError(f'mission {self.id}: only who tracks keeps to a side')
+        if self.mode is not MissionMode.HOVER and self.way_at_altitude:
+            raise ValueError(f'mission {self.id}: only a hover is told with the way to it')
         if self.pattern is not Pattern.ORBIT and self.turns is not None:
             raise ValueError(f'mission {self.id}: only an orbit has turns')
         if self.start is not None and (

@@ -181,3 +181,19 @@ def test_a_climb_is_judged_during_the_missions_and_after_them(
     found = scene.with_(events=[climb])
     assert 'e9: action ascend' not in found.missing()
     assert {i for i in found.judged() if i.startswith('e9.')} == asked | {'e9.within'}
+
+
+@pytest.mark.parametrize(('then', 'can'), [('return_home', False), ('land', True)])
+def test_nobody_flies_on_after_a_landing(scene: Scene, then: str, can: bool) -> None:
+    lands = {
+        'id': 'e8',
+        'trigger': {'on': 'mission_done', 'uav': 'uav1'},
+        'action': {'do': 'land', 'uav': 'uav1'},
+    }
+    flies = {
+        'id': 'e9',
+        'trigger': {'on': 'event_done', 'event': 'e8'},
+        'action': {'do': then, 'uav': 'uav1'},
+    }
+    found = scene.with_(events=[lands, flies])
+    assert ('e9: a flight after a landing' not in found.missing()) is can

@@ -43,7 +43,7 @@ SINCE = {
     'longest_standstill', 'message_text', 'motion_time', 'never_delivered', 'never_sent', 'outage',
     'phase_after_event', 'report_gap', 'report_latency', 'return_distance', 'side_fraction',
     'speed_once_there', 'standing_time', 'time_headway', 'time_to_collision', 'traffic', 'undone',
-    'vertical_speed', 'wind_course', 'wind_from', 'wind_speed',
+    'vertical_speed', 'way_altitude', 'wind_course', 'wind_from', 'wind_speed',
 }  # fmt: skip
 
 

@@ -48,3 +48,16 @@ def test_who_has_been_above_the_goal_stays_down() -> None:
     assert crossing.goal(above, (199.0, 0.0), GOAL) == GOAL
     away = PursuitReference(150.0, 0.0, 20.0)  # blown off later, it does not go up again
     assert crossing.goal(away, (150.0, 0.0), GOAL) == GOAL
+
+
+@pytest.mark.parametrize('from_m', [5.0, 60.0])
+def test_a_level_way_begins_at_its_height(from_m: float) -> None:
+    reference, crossing = PursuitReference(0.0, 0.0, from_m), Crossing(None, level=True)
+    points = []
+    for _ in range(1600):
+        goal, velocity = crossing.goal(reference, (reference.x, reference.y), GOAL)
+        reference.step(goal, velocity, FLIGHT, DT_S)
+        points.append((reference.x, reference.y, reference.z))
+    way = [z for x, _, z in points if 1.0 < x]
+    assert (min(way), max(way)) == pytest.approx((20.0, 20.0), abs=0.6)
+    assert points[-1] == pytest.approx(GOAL[0], abs=0.5)

@@ -31,6 +31,7 @@ class CaptureTime(OfMission):
         climb_mps: Nor does the time that the height takes at this rate, where that is longer.
             None: it is as high as before.
         descent_mps: The same on the way down.
+        level_way: It climbs or sinks before its way, and not on it.
     """
 
     name = QuantityName.CAPTURE_TIME
@@ -39,6 +40,7 @@ class CaptureTime(OfMission):
     way_mps: FiniteFloat | None = omitted(None)
     climb_mps: FiniteFloat | None = omitted(None)
     descent_mps: FiniteFloat | None = omitted(None)
+    level_way: bool = omitted(False)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time; a target that is gone before excuses, the end of the run does not."""
@@ -84,6 +86,8 @@ class CaptureTime(OfMission):
             there = context.view.reference(mission.target)[tick, :2].tolist()
             goal = (there[0], there[1])
         way_m = norm2(goal[0] - x, goal[1] - y) - mission.standoff_m
+        if self.level_way:
+            return max(way_m, 0.0) / speed + height_s
         return max(way_m / speed, height_s)
 
     def _height_s(self, rise_m: float) -> float:
@@ -100,15 +104,18 @@ def implied(
     after = f'and its way at {number(way_mps)} m/s after the phase before it'
     planned = mission.index == 0
     rates: tuple[float | None, float | None] = None, None
+    level_way = False
     if planned:
         # A later mission begins wherever the one before it ended: that target has moved since.
         allowed_s += facts.transit_m / way_mps
         after = 'after its ascent'
     elif changes_height(inputs, mission):
         rates = up_mps, down_mps = climb_mps(inputs), descent_mps(inputs)
+        asked = (m for m in inputs.spec.missions if m.id == mission.mission)
+        level_way = any(m.has_a_level_way for m in asked)
         after = (
-            f'and its way at {number(way_mps)} m/s, {number(up_mps)} m/s up or '
-            f'{number(down_mps)} m/s down after the phase before it'
+            f'and its way at {number(way_mps)} m/s, {"first " if level_way else ""}'
+            f'{number(up_mps)} m/s up or {number(down_mps)} m/s down after the phase before it'
         )
     return condition(
         id=f'{mission.mission}.capture',
@@ -121,6 +128,7 @@ def implied(
             way_mps=None if planned else way_mps,
             climb_mps=rates[0],
             descent_mps=rates[1],
+            level_way=level_way,
         ),
         source=source,
         every_sample=False,

@@ -51,6 +51,7 @@ def is_transit(
 def arrive(draft: MissionDraft, mode: MissionMode) -> None:
     """`flies to the park and hovers there`: one phase, for which the UAV has to get there."""
     draft.mode = mode
+    draft.way_at_altitude = draft.altitude is not None  # so it was told of the way
     draft.pattern = None
     draft.waypoint_count = None
 

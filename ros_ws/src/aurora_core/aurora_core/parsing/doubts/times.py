@@ -274,6 +274,28 @@ def times_of_phases(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
             yield at.at_s.span
 
 
+def times_of_described(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`at 40 s a drone that tracks the bus returns`: it returns then, and has tracked before."""
+    for event in spec.events:
+        at, action = event.trigger, event.action
+        if not isinstance(at, TimeTrigger) or at.at_s.span is None:
+            continue
+        if not isinstance(action, UavAction) or action.do != 'change_mission':
+            continue
+        if action.mission != next((m.id for m in spec.missions if m.uav == action.uav), None):
+            continue
+        ends = any(
+            isinstance(e.action, UavAction)
+            and (e.action.uav, e.trigger) == (action.uav, at)
+            and e.action.lands
+            for e in spec.events
+        )
+        behind = (a for a in atoms if a.start >= at.at_s.span.end)
+        told = next((a for a in behind if a.kind in (AtomKind.RELATIVE, AtomKind.VERB)), None)
+        if ends or (told is not None and told.kind is AtomKind.RELATIVE):
+            yield at.at_s.span
+
+
 def times_of_sequels(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`hovers, then descends to 40 m and hovers for 10 s` that became 10 s of the hover before."""
     for before, after in pairwise(sorted(spec.missions, key=lambda m: m.uav)):
