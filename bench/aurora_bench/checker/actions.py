@@ -172,6 +172,8 @@ def _stop(case: Case, agent: str, window: Window) -> Acted:
         if a <= last and b > first and a <= scene.tick(window.late_s):
             if _comes_early(case, agent, window, a):
                 return Acted(does_not(f'{agent} stands from {scene.times[a]:.2f} s, too early'))
+            if _never_moved(case, agent, window):
+                return Acted(does_not(f'{agent} has not moved before {window.late_s:.2f} s'))
             done = max(float(scene.times[a]), window.late_s)
             stands = holds(f'{agent} stands at {done:.2f} s already')
             # Who arrives may have done so, and come to rest, before it is there for sure.
@@ -234,6 +236,12 @@ def _reach(
     return Acted(graded(soon and not late, not late, why), start, done)
 
 
+def _never_moved(case: Case, agent: str, window: Window) -> bool:
+    """Return whether somebody has stood from t = 0 on: who stands has nothing to stop."""
+    before = case.scene.speed(agent)[: case.scene.tick(window.late_s) + 1]
+    return bool((before < limits.STARTED_MPS).all())
+
+
 def _slow(case: Case, agent: str, window: Window, value: float | None) -> Acted:
     scene, speed = case.scene, case.scene.speed(agent)
     at = scene.tick(window.late_s)
@@ -245,6 +253,8 @@ def _slow(case: Case, agent: str, window: Window, value: float | None) -> Acted:
             begun = int(since[-1]) + 1 if len(since) else 0
             if _comes_early(case, agent, window, begun):
                 return Acted(does_not(f'{agent} is as slow from {scene.times[begun]:.2f} s'))
+            if _never_moved(case, agent, window):
+                return Acted(does_not(f'{agent} has not moved before {window.late_s:.2f} s'))
             time = window.late_s
             return Acted(holds(f'{agent} goes at {speed[at]:.2f} m/s already'), time, time)
         what = f'slow to {value:g} m/s'

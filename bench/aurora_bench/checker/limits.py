@@ -56,6 +56,11 @@ HOVER_DRIFT_WIND_M = 3.0
 GENTLE_MPS2 = 1.5
 FOLLOWS_M = 5.0
 
+# Drag of the multirotor over its mass: for each m/s through the air, and for its square. A mean
+# wind that a flight shows may be so far off: so much, and such a share of the gusts.
+DRAG_HZ, DRAG_PER_M = 0.1, 0.008
+WIND_SHOWN_MPS, WIND_SHOWN_GUSTS = 1.0, 0.6
+
 # Actions.
 # Capture follows within this after the ascent, apart from the way there (s).
 CAPTURE_S = 30.0

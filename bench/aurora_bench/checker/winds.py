@@ -10,8 +10,17 @@ import numpy as np
 import shapely
 
 from aurora_bench.checker import flown, limits
-from aurora_bench.checker.answers import Judged, cannot_tell, decide, does_not, graded, holds
+from aurora_bench.checker.answers import (
+    Judged,
+    Outcome,
+    cannot_tell,
+    decide,
+    does_not,
+    graded,
+    holds,
+)
 from aurora_bench.checker.case import Case, Requirement
+from aurora_bench.checker.leaning import wind_shown
 from aurora_bench.checker.missions import captured_tick
 from aurora_bench.checker.phases import segments
 from aurora_bench.checker.recording import FloatArray
@@ -26,7 +35,24 @@ OFF_COURSE_DEG = {'tailwind': 0.0, 'headwind': 180.0, 'crosswind': 90.0}
 
 
 def wind(case: Case, field: str, value: object) -> Judged:
-    """Return whether the recorded mean wind is as annotated: speed, origin, or course."""
+    """Return whether the wind is as annotated: speed, origin, or course; and whether it blew."""
+    judged = _recorded(case, field, value)
+    still = '' if judged.outcome is not Outcome.HOLDS else _did_not_blow(case)
+    return does_not(still) if still else judged
+
+
+def _did_not_blow(case: Case) -> str:
+    """Return that a flight shows another wind than the recorded one, '' where none does."""
+    world = case.scene.world
+    most = limits.WIND_SHOWN_MPS + limits.WIND_SHOWN_GUSTS * world.gust_mps
+    for uav in _uavs(case):
+        shown = wind_shown(case.scene, uav)
+        if shown is not None and np.linalg.norm(shown - world.wind_mps) > most:
+            return f'{uav} leans against a wind of {np.linalg.norm(shown):.1f} m/s on average'
+    return ''
+
+
+def _recorded(case: Case, field: str, value: object) -> Judged:
     east, north = case.scene.world.wind_mps
     speed = float(np.hypot(east, north))
     if field == 'wind_mps' and isinstance(value, int | float):

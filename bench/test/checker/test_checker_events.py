@@ -43,6 +43,12 @@ def test_slow_to_a_speed_or_to_half(
     assert stage.says(event_of(AT_20, does('slow', **more))) == outcome
 
 
+@pytest.mark.parametrize('do', [{'do': 'slow', 'value_mps': 4.0}, {'do': 'stop'}])
+def test_who_has_never_moved_does_not_slow_down(stage: Any, do: dict[str, Any]) -> None:
+    stage.drive('car1', 'car', profile_of((0, 0), (30, 0), (34, 8), (60, 8)))
+    assert stage.says(event_of(AT_20, {**do, 'agent': 'car1'})) == 'does_not'
+
+
 @pytest.mark.parametrize('do', [{'do': 'slow', 'value_mps': 4.0}, {'do': 'slow'}])
 def test_slow_is_not_done_by_what_comes_long_after(stage: Any, do: dict[str, Any]) -> None:
     """Half way at first, and there only twenty seconds later."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from aurora_bench.checker import CheckerError, check_recording
@@ -151,6 +152,20 @@ def test_wind_as_recorded(stage: Any) -> None:
     assert stage.says({'kind': 'world', 'field': 'wind_from_deg', 'value': 90}) == 'does_not'
     assert stage.says({'kind': 'world', 'field': 'wind', 'value': 'crosswind'}) == 'holds'
     assert stage.says({'kind': 'world', 'field': 'wind', 'value': 'tailwind'}) == 'does_not'
+
+
+@pytest.mark.parametrize(
+    ('mps', 'outcome'), [(8.0, 'holds'), (7.5, 'holds'), (0.0, 'does_not'), (-8.0, 'does_not')]
+)
+def test_a_wind_shows_in_how_a_flight_leans(stage: Any, mps: float, outcome: str) -> None:
+    """Who hovers leans west by what 8 m/s to the east, or less, take."""
+    stage.world = type(stage.world)(wind_mps=(8.0, 0.0))
+    stage.uav('drone', lambda _t: (0.0, 0.0, 40.0), ends=(58.0,))
+    tangent = -(0.1 + 0.008 * abs(mps)) * mps / 9.80665
+    half = np.arctan(tangent) / 2.0
+    _, rows, _ = stage._uavs[0]
+    rows[:, 6:10] = (np.cos(half), 0.0, np.sin(half), 0.0)
+    assert stage.says({'kind': 'world', 'field': 'wind_mps', 'value': 8}) == outcome
 
 
 def test_what_cannot_be_seen_is_said_so(stage: Any) -> None:

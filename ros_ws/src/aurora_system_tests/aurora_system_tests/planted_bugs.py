@@ -18,6 +18,7 @@ from aurora_core.execution.scenario_executor import ScenarioExecutor
 from aurora_core.execution.step_output import StepOutput, Stepper
 from aurora_core.mission.machine import MissionMachine, TargetMotion
 from aurora_core.mission.plan import MissionPlan, UavPlan
+from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.scenario import DistanceTrigger, Event, EventDoneTrigger
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UavPhase
@@ -465,6 +466,12 @@ PLANTED = (
         'When a pedestrian steps onto the road, the ego car brakes.',
         with_runner(_TardyRunner),
         'condition:e2.within',
+    ),
+    _planted(
+        'held until it is to brake',
+        'The drone follows the ego car. When it sees a truck, the ego car brakes hard.',
+        with_agents(release=ReleaseOn.CAPTURED, release_uav='uav1', release_mission='m1'),
+        'condition:e1.moving',
     ),
     _planted(
         'goes on before the time is over',

@@ -4,12 +4,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from aurora_cli.installed import installed
+from aurora_core.execution.plan import Execution
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.verdict import VerdictStatus
+from aurora_core.pipeline.stages import RunRequest
 from aurora_core.pipeline.verification import verify_stage
 from aurora_system_tests.local_runs import names_of, run_prompt
 from aurora_system_tests.planted_bugs import (
@@ -18,6 +22,41 @@ from aurora_system_tests.planted_bugs import (
     Planted,
 )
 from aurora_system_tests.sabotage import SabotagedStages
+
+
+class _StillAir(SabotagedStages):
+    """The UAVs fly in air that does not move, whatever is recorded."""
+
+    def __init__(self) -> None:
+        super().__init__(lambda executor: executor)
+
+    def execution(self, agsg: Agsg, request: RunRequest) -> Execution:
+        """Return what is run, without its wind."""
+        asked = super().execution(agsg, request)
+        still = {'wind_mean_east_mps': 0.0, 'wind_mean_north_mps': 0.0, 'wind_gust_mps': 0.0}
+        return replace(asked, air_load=replace(asked.air_load, **still))
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'names'),
+    [
+        (
+            'A drone hovers over City Hall at 50 m for 10 s in a 10 m/s crosswind.',
+            {'condition:world.wind_blown.uav1'},
+        ),
+        (
+            'A drone hovers at 40 m for 10 s in a wind of 5 m/s with gusts of 12 m/s.',
+            {'condition:world.wind_blown.uav1', 'condition:world.gust_blown.uav1'},
+        ),
+    ],
+    ids=['wind', 'gusts'],
+)
+def test_a_wind_that_did_not_blow_is_named(prompt: str, names: set[str], tmp_path: Path) -> None:
+    stages = _StillAir()
+    report, _ = run_prompt('still', prompt, 1, tmp_path, stages)
+    assert report.status == 'violated'
+    assert stages.judged is not None
+    assert names_of(stages.judged.verdict) == names
 
 
 @pytest.mark.parametrize('planted', PLANTED, ids=lambda planted: planted.name)

@@ -26,6 +26,7 @@ from aurora_core.judging.quantities import (
     event_time,
     lane_change,
     message_text,
+    moving_before_action,
     return_distance,
     sent_after_capture,
     speed_before_event,
@@ -174,6 +175,9 @@ def _of_agent(
         yield deceleration.of_event(inputs, event, action, action.deceleration_mps2, source)
     if action.do == 'start' and event.trigger is not None:
         yield speed_before_event.implied(inputs, event, action, source)
+    moving = moving_before_action.implied(inputs, event, action, source)
+    if moving is not None:
+        yield moving
     if action.do == 'change_lane':
         yield lane_change.after_event(inputs, event, action, source)
     if action.do == 'yield':

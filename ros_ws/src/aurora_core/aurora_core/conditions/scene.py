@@ -8,7 +8,14 @@ from collections.abc import Iterator
 
 from aurora_core.grounding.traffic import has_room_for_traffic
 from aurora_core.judging.build import Inputs
-from aurora_core.judging.quantities import count, run_duration, traffic, wind, world_setting
+from aurora_core.judging.quantities import (
+    count,
+    run_duration,
+    traffic,
+    wind,
+    wind_blown,
+    world_setting,
+)
 from aurora_core.judging.quantities.world_setting import Setting
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Provenance, Span
@@ -58,6 +65,14 @@ def _wind(inputs: Inputs) -> Iterator[Condition]:
         yield wind.origin(inputs, origin)
     if world.wind is not None:
         yield wind.course(inputs, world.wind, world.wind_span)
+    if not world.names_wind and world.gust_mps is None:
+        return
+    for uav in inputs.spec.uavs:
+        # What is recorded says what was to blow: a flight shows what did.
+        yield wind_blown.blown(inputs, uav.id)
+        shaken = wind_blown.gusts_blown(inputs, uav.id)
+        if shaken is not None:
+            yield shaken
 
 
 def _numbers(inputs: Inputs) -> Iterator[Condition]:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +15,7 @@ from aurora_core.geometry.sight_line import SightLine
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.places import approach_point
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_types import Landmark
 from aurora_core.knowledge.world import CentreLine, SignalPost, Surface, SurfaceKind
 from aurora_core.spec.reference import APPROACH, LANDMARK
 
@@ -32,6 +33,7 @@ class MapParts:
         signals: Junctions with signals.
         landmarks: x, y in m by `landmark:<name>`, and by `approach:<name>` where one that is in
             a building is reached on the road.
+        grounds: The same of areas and bus stops; recorded where a request names them.
     """
 
     airspace: Airspace
@@ -41,6 +43,7 @@ class MapParts:
     lanes: tuple[CentreLine, ...]
     signals: tuple[SignalPost, ...]
     landmarks: dict[str, tuple[float, float]]
+    grounds: dict[str, tuple[float, float]]
 
 
 def map_parts(map_model: MapModel, airspace: Airspace | None = None) -> MapParts:
@@ -73,12 +76,15 @@ def map_parts(map_model: MapModel, airspace: Airspace | None = None) -> MapParts
             for j in sorted(network.junctions.values(), key=lambda j: j.id)
             if j.has_signal
         ),
-        landmarks=dict(_landmarks(map_model)),
+        landmarks=dict(_landmarks(map_model, map_model.landmarks)),
+        grounds=dict(_landmarks(map_model, map_model.grounds)),
     )
 
 
-def _landmarks(map_model: MapModel) -> Iterator[tuple[str, tuple[float, float]]]:
-    for mark in map_model.landmarks:
+def _landmarks(
+    map_model: MapModel, marks: Iterable[Landmark]
+) -> Iterator[tuple[str, tuple[float, float]]]:
+    for mark in marks:
         here, before = (mark.x_m, mark.y_m), approach_point(map_model, mark.name)
         yield f'{LANDMARK}{mark.name}', here
         if before != here:

@@ -46,6 +46,7 @@ from aurora_core.spec.flight_order import (
 )
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.reference import APPROACH, LANDMARK
 from aurora_core.spec.scenario import Event, Link, ScenarioSpec, SendMessage
 from aurora_core.spec.vocabulary import Place
 from aurora_core.trace.roster import Roster, RosterEntry
@@ -322,7 +323,9 @@ def _named_places(
     parts: MapParts, resolved: Mapping[str, tuple[float, float]]
 ) -> tuple[NamedPlace, ...]:
     # A landmark is where the map has it, whatever else is resolved.
-    points = dict(resolved) | parts.landmarks
+    named = {f'{APPROACH}{n.removeprefix(LANDMARK)}' for n in resolved} | set(resolved)
+    grounds = {n: point for n, point in parts.grounds.items() if n in named}
+    points = dict(resolved) | parts.landmarks | grounds
     return tuple(NamedPlace(name=n, x_m=x, y_m=y) for n, (x, y) in sorted(points.items()))
 
 

@@ -137,7 +137,7 @@ def _checks(
         yield from (c for c in check_signs(spec) if c.span not in named)
 
     def places(spec: ScenarioSpec) -> Iterator[Certificate]:
-        marks, buildings = map_model.landmarks, map_model.buildings
+        marks, buildings = map_model.quotable, map_model.buildings
         fenced = list(check_zones(spec, map_model.zones, marks, limits, tolerances, buildings))
         yield from fenced
         # A tower in a no-fly zone is told of once, and a flight among buildings, too.

@@ -76,7 +76,7 @@ def doubts(
         *check_radio(spec, close, exact),
         *check_geometry(spec, map_model, close, exact),
         *check_times(spec, limits, exact, map_model),
-        *check_rounds(spec, map_model.buildings, map_model.landmarks, close, exact),
+        *check_rounds(spec, map_model.buildings, map_model.quotable, close, exact),
     )
     near = [c.sentence for c in strained if c.sentence not in known]
     yield from (f'{sentence} Only inside the tolerances it can be.' for sentence in near)
@@ -98,7 +98,7 @@ def doubts(
 
 def _off_the_streets(spec: ScenarioSpec, map_model: MapModel) -> Iterator[str]:
     """Events that wait for a vehicle nearer to a landmark than any street leads."""
-    marks = {f'{LANDMARK}{mark.name}': mark for mark in map_model.landmarks}
+    marks = {f'{LANDMARK}{mark.name}': mark for mark in map_model.places}
     vehicles = {a.id for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)}
     for trigger in (event.trigger for event in spec.events):
         if not isinstance(trigger, DistanceTrigger) or trigger.on != 'distance_below':
@@ -121,7 +121,7 @@ def _far_hovers(
     spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
 ) -> Iterator[str]:
     """Messages between UAVs whose hovers are out of reach of each other; their ways may not be."""
-    marks = {f'{LANDMARK}{mark.name}': mark for mark in map_model.landmarks}
+    marks = {f'{LANDMARK}{mark.name}': mark for mark in map_model.places}
     sent = [e.action for e in spec.events if isinstance(e.action, SendMessage)]
     flown = {u.id: [m for m in spec.missions if m.uav == u.id] for u in spec.uavs}
     links = {(link.sender, link.receiver): link.range_m for link in spec.links}

@@ -29,7 +29,7 @@ class Spots:
         self, spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
     ) -> None:
         self._spec = spec
-        self._marks = {f'{LANDMARK}{mark.name}': mark for mark in map_model.landmarks}
+        self._marks = {f'{LANDMARK}{mark.name}': mark for mark in map_model.quotable}
         self._buildings = map_model.buildings
         self._limits = limits
         self._tolerances = tolerances

@@ -62,7 +62,7 @@ def _spots(spec: ScenarioSpec, map_model: MapModel) -> dict[str, Spot]:
         f'{LANDMARK}{mark.name}': Spot(
             x_m=mark.x_m, y_m=mark.y_m, roof_m=roof_reach_m(mark, map_model.buildings)
         )
-        for mark in map_model.landmarks
+        for mark in map_model.quotable
         if f'{LANDMARK}{mark.name}' in targets
     }
 

@@ -14,6 +14,8 @@ from math import hypot, sqrt
 
 from aurora_core.grounding.places import ROADS, arrivals, has_point
 from aurora_core.spec.events import (
+    SLOWS,
+    AgentAction,
     ArrivalTrigger,
     DistanceTrigger,
     Event,
@@ -109,13 +111,27 @@ def is_kept_away(spec: ScenarioSpec, patrol: UavMission) -> bool:
 
     A route over a street goes where that body drives: it begins so much farther on.
     """
-    event = left_by(spec, patrol)
+    event = _comes_to(spec, patrol)
     trigger = None if event is None else event.trigger
     near = isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below'
     seen = isinstance(trigger, VisibilityTrigger) and trigger.on == 'visible'
     ours = event is not None and patrol.uav in bodies_of_cause(event)
     where = patrol.target
     return ours and (near or seen) and (where is None or where in ROADS or has_point(where))
+
+
+def _comes_to(spec: ScenarioSpec, patrol: UavMission) -> Event | None:
+    """Return the event that ends a flight, or that slows down who comes near one at no place."""
+    event = left_by(spec, patrol)
+    if event is not None or patrol.target is not None or patrol.mode is not MissionMode.HOVER:
+        return event
+    for event in spec.events:
+        trigger, action = event.trigger, event.action
+        near = isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below'
+        slows = isinstance(action, AgentAction) and action.do in SLOWS
+        if near and slows and bodies_of_cause(event) == {patrol.uav, getattr(action, 'agent', '')}:
+            return event
+    return None
 
 
 def kept_away_m(spec: ScenarioSpec, patrol: UavMission, range_m: float) -> float:
@@ -126,7 +142,7 @@ def kept_away_m(spec: ScenarioSpec, patrol: UavMission, range_m: float) -> float
         patrol: The route, which somebody ends by coming into view, or near.
         range_m: Of sight.
     """
-    event = left_by(spec, patrol)
+    event = _comes_to(spec, patrol)
     trigger = None if event is None else event.trigger
     reach_m = trigger.value_m.value if isinstance(trigger, DistanceTrigger) else range_m
     sizes = [size.value / 2.0 for size in patrol.size_m or ()]

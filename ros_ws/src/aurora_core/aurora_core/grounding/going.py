@@ -4,12 +4,18 @@
 
 from __future__ import annotations
 
-from aurora_core.grounding.places import arrivals
+from aurora_core.grounding.places import arrivals, has_point
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parking import stands, stands_first_s
-from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.scenario import AgentAction, DistanceTrigger, GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind
+
+# Who is to arrive somewhere comes from so far away, or so much farther than a trigger says (m).
+_ARRIVES_FROM_M, _FARTHER_M = 18.0, 4.0
+
+# A roadside unit stands so far off the middle of the sidewalk, away from the road (m).
+_POST_ASIDE_M = 0.9
 
 
 def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
@@ -22,15 +28,38 @@ def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     )
 
 
-def arrives(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    """Tell whether an event waits for a person to arrive somewhere."""
-    return next(arrivals(spec, agent), None) is not None
+def arrives_from_m(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
+    """Return from how far off a person comes whom an event waits for somewhere (m).
+
+    He is not there yet at t = 0, nor as near as that event says. None where none waits for him.
+    """
+    near = [
+        trigger.value_m.value
+        for trigger in (event.trigger for event in spec.events)
+        if isinstance(trigger, DistanceTrigger)
+        and trigger.on == 'distance_below'
+        and agent.id in (trigger.a, trigger.b)
+        and any(has_point(name) for name in (trigger.a, trigger.b))
+    ]
+    if near:
+        return max(_ARRIVES_FROM_M, max(near) + _FARTHER_M)
+    return None if next(arrivals(spec, agent), None) is None else _ARRIVES_FROM_M
+
+
+def aside_of_walkers_m(spec: ScenarioSpec, agent: GroundAgent) -> float:
+    """Return how far left of the middle of a sidewalk one stands there (m): a post, off the way.
+
+    That is where somebody comes along who is awaited there.
+    """
+    post = agent.type is AgentType.RSU
+    comes = any(arrives_from_m(spec, a) is not None for a in spec.agents if a is not agent)
+    return -_POST_ASIDE_M if post and comes else 0.0
 
 
 def goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether a person is to leave its place at some time."""
     if crosses(spec, agent) or sets_off(spec.events, agent.id) is not None:
         return True
-    if arrives(spec, agent) or stands_first_s(agent) is not None:
+    if arrives_from_m(spec, agent) is not None or stands_first_s(agent) is not None:
         return True
     return bool(agent.behaviors) and not stands(agent)

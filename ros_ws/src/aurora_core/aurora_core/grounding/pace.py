@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from math import inf
 
 from aurora_core.grounding.awaited import awaited_at
+from aurora_core.grounding.causes import slows_at_sight
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings, SpeedSettings
 from aurora_core.quantities.actions import FROM_MOTION
@@ -185,6 +186,8 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
             pace = min(pace, _OBSERVED_SHARE * range_m / mission.duration_s.value)
         if target is not None and _is_taken_over(spec, mission):
             pace = min(pace, settings.speeds.taken_over_mps)
+        if target is not None and slows_at_sight(spec, target.id, mission.uav):
+            pace = min(pace, settings.speeds.taken_over_mps)  # it is caught up with
         if target is not None and mission.mode is MissionMode.TRACK:
             pace = min(pace, _kept_up_with_mps(spec, mission.uav))
     return pace

@@ -16,7 +16,7 @@ from aurora_core.grounding import walk_ends
 from aurora_core.grounding.awaited import awaited_at, bound_to_places
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.distances import DEFAULT_GAP_M
-from aurora_core.grounding.going import arrives, crosses, goes
+from aurora_core.grounding.going import arrives_from_m, aside_of_walkers_m, crosses, goes
 from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.nearby import ALONG, SIDES, by_vehicles, in_order
 from aurora_core.grounding.pace import encounter_room_m, met_persons, own_speed_mps
@@ -62,9 +62,6 @@ from aurora_core.spec.vocabulary import Place, Relation
 
 # Who stands on a side of a vehicle is where the sidewalk is, to so much of a stated distance (m).
 _OFF_M = 1.5
-
-# Who is to arrive at a crosswalk comes from so far away (m): not there yet at t = 0.
-_ARRIVES_FROM_M = 18.0
 
 # Steps in which a spot at a stated distance is looked for (m).
 _STEP_M = 0.5
@@ -225,7 +222,7 @@ class PersonPlacer:
             # Without a stated distance the crosswalk says how far ahead of the vehicle that is.
             stated = any(is_stated(p.distance_m) for p in agent.placements)
             ahead = any(p.relation in _BEFORE_IT for p in agent.placements)
-            back_m = _ARRIVES_FROM_M if arrives(spec, agent) else KERB_M
+            back_m = arrives_from_m(spec, agent) or KERB_M
             up_m = walks_up_m(spec, agent, own_speed_mps(agent) or self._style.walking_mps)
             there = placed if stated or not ahead else None
             return self._crossing(site, there, number, back_m, up_m)
@@ -441,7 +438,7 @@ class PersonPlacer:
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
         names += [trigger.place for trigger in arrivals(spec, agent)]
         # Who is to arrive somewhere walks there from a little way off, who rests there from more.
-        comes, rests = arrives(spec, agent), rests_at(spec, agent)
+        from_m, rests = arrives_from_m(spec, agent), rests_at(spec, agent)
         stated = {
             p.of: max(0.0, p.distance_m.inside(self._style.inside_bound_m))
             for p in agent.placements
@@ -458,20 +455,21 @@ class PersonPlacer:
                 if path is None:
                     return None
                 lane = self._map.network.lane(path.lane_id)
-                back_m = NEXT_M * number + (_ARRIVES_FROM_M if comes and name != rests else KERB_M)
+                back_m = NEXT_M * number + ((name != rests and from_m) or KERB_M)
                 walk = walk_along(self._map.network, path.edge_ids[:1])
                 if walk is None:
                     return None
-                spot = Spot(walk, max(0.0, lane.arc_length_m - back_m))
+                aside_m = aside_of_walkers_m(spec, agent)
+                spot = Spot(walk, max(0.0, lane.arc_length_m - back_m), aside_m)
                 return walks_to(self._map.network, spot) if name == rests else spot
             if name is not None and has_point(name):
                 there = self._places.point(name, (x, y))
                 near = nearest_spot(self._map.network, there, number)
                 if near is not None and name == rests:
                     return walks_to(self._map.network, near, self._beyond_m(near, there))
-                if near is None or not comes:
+                if near is None or from_m is None:
                     return near
-                return replace(near, arc_m=max(0.0, near.arc_m - _ARRIVES_FROM_M))
+                return replace(near, arc_m=max(0.0, near.arc_m - from_m))
         if site.seated:
             front = max(site.seated, key=lambda s: s.arc_m)
             return self._along(front, DEFAULT_GAP_M, number)

@@ -4,15 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from aurora_core.grounding.awaited import awaited_at, is_kept_away, leaving
+from aurora_core.grounding.causes import causes, slows_at_sight
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import encounters, moves, stated_times_s
 from aurora_core.grounding.watched import asked_to_see
 from aurora_core.outcomes.grounded import ReleaseOn
-from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.events import bodies_of, bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, counts_from_capture, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
@@ -22,17 +22,14 @@ from aurora_core.spec.scenario import (
     ArrivalTrigger,
     DistanceTrigger,
     Event,
-    EventDoneTrigger,
     GroundAgent,
     Link,
-    MessageTrigger,
     MissionDoneTrigger,
     ScenarioSpec,
     SendMessage,
     SpeedTrigger,
     UavAction,
     UavMission,
-    VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import MissionMode
 
@@ -67,8 +64,8 @@ def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Rel
     watched = release.on is ReleaseOn.OBSERVED and bool(release.mission)
     if watched and agent.behaviors and not stands(agent):
         return _ready_to_be_passed(spec, agent, release)
-    if release.on is ReleaseOn.CAPTURED and _slows_at_sight(spec, agent, release):
-        return Release()  # it is to be on the move by then
+    if release.on is ReleaseOn.CAPTURED and slows_at_sight(spec, agent.id, release.uav):
+        return Release()  # it is to be on the move by then, and is caught up with
     if release == Release() and (route := _reported_route(spec, agent)) is not None:
         # Nor does it leave before: at the end of the route it is to be in reach.
         return Release(on=ReleaseOn.CAPTURED, uav=route.uav, mission=route.id)
@@ -86,34 +83,6 @@ def _reported_route(spec: ScenarioSpec, agent: GroundAgent) -> UavMission | None
         if isinstance(trigger, MissionDoneTrigger) and trigger.uav == action.sender:
             return next((m for m in routes if m.uav == action.sender), None)
     return None
-
-
-def _slows_at_sight(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> bool:
-    """Tell whether one slows down as soon as the UAV that it waits for sees another one.
-
-    Whom that UAV watches waits for it all the same.
-    """
-    if any(m.id == release.mission and m.target == agent.id for m in spec.missions):
-        return False
-    for event in spec.events:
-        action = event.action
-        if not isinstance(action, AgentAction) or action.agent != agent.id:
-            continue
-        slows = action.do in FROM_MOTION
-        if slows and any(_is_sighting(e, release.uav, agent.id) for e in _causes(spec, event)):
-            return True
-    return False
-
-
-def _is_sighting(event: Event, uav: str, agent: str) -> bool:
-    """Tell whether an event waits for a UAV to see somebody else than an agent."""
-    trigger = event.trigger
-    return (
-        isinstance(trigger, VisibilityTrigger)
-        and trigger.on == 'visible'
-        and trigger.observer == uav
-        and trigger.target != agent
-    )
 
 
 def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
@@ -137,9 +106,10 @@ def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
         if person == agent.id and not rested and not any(t.who == person for t in _arriving(spec)):
             within_m = _yields_within_m(spec, vehicle, person)
             return Release(on=ReleaseOn.NEARED, agent=vehicle, within_m=within_m)
-    if _told_in_time(spec, agent.id):
+    release = _watched(spec, agent.id)
+    if _told_in_time(spec, agent.id) or slows_at_sight(spec, agent.id, release.uav):
         return Release()
-    return _watched(spec, agent.id)
+    return release
 
 
 def _told_in_time(spec: ScenarioSpec, name: str) -> bool:
@@ -414,40 +384,10 @@ def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
 def _is_ended_by(spec: ScenarioSpec, mission: UavMission, body: str) -> bool:
     """Tell whether a mission ends with what a body does, or with what comes of that."""
     ends = left_by(spec, mission)
-    return ends is not None and any(body in bodies_of_cause(e) for e in _causes(spec, ends))
-
-
-def _causes(spec: ScenarioSpec, event: Event) -> Iterator[Event]:
-    """Yield an event and, one after the other, those that it comes of."""
-    events = {e.id: e for e in spec.events}
-    seen: set[str] = set()
-    cause: Event | None = event
-    while cause is not None and cause.id not in seen:
-        yield cause
-        seen.add(cause.id)
-        cause = events.get(_cause_of(spec, cause) or '')
+    return ends is not None and any(body in bodies_of_cause(e) for e in causes(spec, ends))
 
 
 def _brings_about(spec: ScenarioSpec, event: Event, body: str | None) -> bool:
     """Tell whether an event waits for a body, or for something that it does first."""
-    first, *earlier = _causes(spec, event)
+    first, *earlier = causes(spec, event)
     return body in bodies_of_cause(first) or any(body in bodies_of(e) for e in earlier)
-
-
-def _cause_of(spec: ScenarioSpec, event: Event) -> str | None:
-    """Return the event that another one waits for: by name, or for its message."""
-    trigger = event.trigger
-    if isinstance(trigger, EventDoneTrigger):
-        return trigger.event
-    if not isinstance(trigger, MessageTrigger):
-        return None
-    return next(
-        (
-            other.id
-            for other in spec.events
-            if isinstance(other.action, SendMessage)
-            and other.action.receiver == trigger.by
-            and trigger.sender in (None, other.action.sender)
-        ),
-        None,
-    )

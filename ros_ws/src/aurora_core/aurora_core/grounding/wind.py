@@ -41,13 +41,9 @@ def mean_wind_mps(
         seed: Draws what the request leaves open: from where it blows, or from which side.
     """
     world = spec.world
-    usual_mps = limits.wind_mean_mps[world.weather.value]
+    speed_mps = mean_speed_mps(spec, limits, tolerances)
     if not world.names_wind:
-        return usual_mps, 0.0
-    speed_mps = usual_mps
-    if world.wind_mps is not None:
-        slack_mps = tolerances.limit_margin * world.wind_mps.value
-        speed_mps = max(0.0, world.wind_mps.inside(slack_mps))
+        return speed_mps, 0.0
     if world.wind_from_deg is not None:
         return offset_at_bearing(speed_mps, world.wind_from_deg.value + 180.0)
     draws = stream(seed, 'grounding:wind')
@@ -56,6 +52,15 @@ def mean_wind_mps(
         return offset_at_bearing(speed_mps, float(draws.uniform(0.0, 360.0)))
     x, y = _blows(world.wind, course, draws)
     return speed_mps * x, speed_mps * y
+
+
+def mean_speed_mps(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> float:
+    """Return how fast the mean wind is: as stated, else as in the weather (m/s)."""
+    world = spec.world
+    if world.wind_mps is None:
+        return limits.wind_mean_mps[world.weather.value]
+    slack_mps = tolerances.limit_margin * world.wind_mps.value
+    return max(0.0, world.wind_mps.inside(slack_mps))
 
 
 def gust_over_mean_mps(

@@ -63,6 +63,9 @@ class Limits(_Table):
     wind_gust_mps: dict[str, NotNegative]  # by weather
     wind_max_mps: NotNegative = omitted(15.0)  # mean of a wind that a request names
     gust_max_mps: NotNegative = omitted(20.0)  # the same at the height of a gust
+    # drag of the multirotor over its mass: for each m/s through the air, and for its square
+    uav_drag_hz: NotNegative = omitted(0.1)
+    uav_drag_per_m: NotNegative = omitted(0.008)
     uavs_max: Annotated[int, Field(ge=0)]
     agents_max: Annotated[int, Field(ge=0)]
 
@@ -129,6 +132,14 @@ class Tolerances(_Table):
     return_m: NotNegative = omitted(3.0)  # how far from its start who returns may land
     outage_s: NotNegative = omitted(0.5)  # on both ends of an outage
     rate_share: Share = omitted(0.10)  # on the time between two reports
+    # who is to slow down or stop was so fast right before, in a vehicle or on foot
+    acts_from_mps: NotNegative = omitted(2.0)
+    acts_from_on_foot_mps: NotNegative = omitted(0.5)
+    acts_before_s: NotNegative = omitted(2.0)
+    # how far off the wind that a flight shows may be: so much, and such a share of the gusts
+    wind_blown_mps: NotNegative = omitted(0.5)
+    wind_blown_gust_share: NotNegative = omitted(0.5)
+    gust_blown_share: Share = omitted(0.4)  # of a gust that a flight shows at the least
     capture_s: NotNegative
     tracked_fraction: Share
     visible_fraction: Share

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_core.errors import MapError
+from aurora_core.knowledge.grounds import BUS_STOP, grounds_of
 from aurora_core.knowledge.map_files import (
     read_areas,
     read_buildings,
@@ -55,6 +56,7 @@ class MapModel:
         zones: No-fly zones, sorted by id.
         areas: Parks, school zones and other named ground, sorted by id.
         landmarks: Sorted by name.
+        grounds: Areas and bus stops that are no landmarks, as such, sorted by name.
         bus_stops: Sorted by id.
         parking_areas: Sorted by id.
     """
@@ -74,6 +76,7 @@ class MapModel:
     zones: tuple[NoFlyZone, ...]
     areas: tuple[Area, ...]
     landmarks: tuple[Landmark, ...]
+    grounds: tuple[Landmark, ...]
     bus_stops: tuple[BusStop, ...]
     parking_areas: tuple[ParkingArea, ...]
 
@@ -87,16 +90,26 @@ class MapModel:
         """Additional file with bus stops and parking rows for the simulator."""
         return self.folder / STOPS_NAME
 
+    @property
+    def quotable(self) -> tuple[Landmark, ...]:
+        """Landmarks and areas: where a stop is on its lane, no proof says."""
+        return tuple(mark for mark in self.places if mark.kind != BUS_STOP)
+
+    @property
+    def places(self) -> tuple[Landmark, ...]:
+        """All that a prompt can name: the landmarks, then areas and bus stops."""
+        return self.landmarks + self.grounds
+
     def landmark(self, name: str) -> Landmark:
-        """Return a landmark by name.
+        """Return a landmark, an area or a bus stop by name.
 
         Raises:
             MapError: When the map has none of that name.
         """
-        for landmark in self.landmarks:
+        for landmark in self.places:
             if landmark.name == name:
                 return landmark
-        names = ', '.join(landmark.name for landmark in self.landmarks)
+        names = ', '.join(landmark.name for landmark in self.places)
         raise MapError(f'map {self.name} has no landmark {name!r}', hint=f'it has: {names}')
 
 
@@ -142,6 +155,8 @@ def load_map_folder(folder: Path) -> MapModel:
             hint='build the maps again with `make maps`',
         )
     bus_stops, parking_areas = read_stops(folder / STOPS_NAME, network)
+    areas = read_areas(folder / ZONES_NAME)
+    landmarks = read_landmarks(folder / LANDMARKS_NAME, network)
     return MapModel(
         name=manifest.name,
         version=manifest.version,
@@ -156,8 +171,9 @@ def load_map_folder(folder: Path) -> MapModel:
         network=network,
         buildings=read_buildings(folder / BUILDINGS_NAME),
         zones=read_zones(folder / ZONES_NAME),
-        areas=read_areas(folder / ZONES_NAME),
-        landmarks=read_landmarks(folder / LANDMARKS_NAME, network),
+        areas=areas,
+        landmarks=landmarks,
+        grounds=grounds_of(areas, bus_stops, landmarks, network),
         bus_stops=bus_stops,
         parking_areas=parking_areas,
     )

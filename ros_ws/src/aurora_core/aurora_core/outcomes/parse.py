@@ -32,12 +32,14 @@ class ParseContext(Document):
         map_name: Name of the map.
         landmark_names: The named places that it has.
         landmark_kinds: What each of them is (`museum`), in the same order; () where nobody knows.
+        grounds: So many of these, the last ones, are areas and bus stops.
         seed: Seed of the run (the offline parser draws nothing from it).
     """
 
     map_name: str = 'downtown'
     landmark_names: tuple[str, ...] = ()
     landmark_kinds: tuple[str, ...] = ()
+    grounds: int = 0
     seed: int = 1
 
 

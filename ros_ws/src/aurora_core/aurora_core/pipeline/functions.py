@@ -24,6 +24,7 @@ from aurora_core.outcomes.repair import (
     with_values,
 )
 from aurora_core.outcomes.verdict import Verdict
+from aurora_core.parsing.landmarks import is_plain_word, landmark_words
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.planned import plan_conditions
@@ -43,11 +44,14 @@ from aurora_core.trace.bag_content import BagContent
 
 def parse_context(known: Knowledge, map_name: str, seed: int) -> ParseContext:
     """Return the map as prompts are read against it."""
-    marks = known.map(map_name).landmarks
+    model = known.map(map_name)
+    grounds = [m for m in model.grounds if not is_plain_word(landmark_words(m.name))]
+    marks = (*model.landmarks, *grounds)
     return ParseContext(
         map_name=map_name,
         landmark_names=tuple(mark.name for mark in marks),
         landmark_kinds=tuple(mark.kind for mark in marks),
+        grounds=len(grounds),
         seed=seed,
     )
 

@@ -8,7 +8,7 @@ import re
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
-from aurora_core.recheck.request import read_map_file
+from aurora_core.recheck.request import read_map_file, read_map_stops
 from aurora_core.spec.vocabulary import AgentType
 
 
@@ -29,8 +29,20 @@ def by_listing(proof: Certificate) -> list[Step]:
                 + (f', but not {", ".join(missing)}' if missing else ''),
             )
         )
+        listing |= _other_places(proof)
         checks.append((word not in listing, f'{proof.word!r} is not in {name}'))
     return checks
+
+
+def _other_places(proof: Certificate) -> frozenset[str]:
+    """Return what else a map names: areas and bus stops."""
+    of_map = re.search(r'landmarks of (\S+)', proof.path)
+    if of_map is None:
+        return frozenset()
+    zones = read_map_file(of_map[1], 'zones.geojson')['features']
+    named = (f['properties'] for f in zones if f['properties']['kind'] != 'no_fly')
+    areas = {str(p.get('name', '')) for p in named}
+    return frozenset(n.casefold() for n in areas | read_map_stops(of_map[1]))
 
 
 def _closed_list(proof: Certificate) -> tuple[frozenset[str] | None, str]:

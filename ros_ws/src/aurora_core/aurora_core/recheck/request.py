@@ -9,11 +9,11 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeGuard
 
-from shapely import STRtree
+from shapely import STRtree, point_on_surface
 from shapely.geometry import Point, Polygon, shape
 from shapely.ops import unary_union
 
-from aurora_core.files import MAP_BYTES, read_json
+from aurora_core.files import MAP_BYTES, read_json, read_xml
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.map_folders import map_folder
 from aurora_core.outcomes.feasibility import Certificate, Fact, FactSource
@@ -86,6 +86,18 @@ def _outlines(path: Path, changed_ns: int, size: int) -> STRtree:
     return STRtree([Polygon(shape(f['geometry']).exterior) for f in features])
 
 
+def _inside(feature: dict[str, Any]) -> tuple[float, float]:
+    point = point_on_surface(Polygon(shape(feature['geometry']).exterior))
+    return round(float(point.x), 1), round(float(point.y), 1)
+
+
+def read_map_stops(name: str) -> frozenset[str]:
+    """Return the names of the bus stops of a map, without their directions."""
+    document = read_xml(map_folder(name) / 'stops.add.xml')
+    plain = (e.get('name', '').partition('(')[0].strip() for e in document.iterfind('busStop'))
+    return frozenset(f'{name} bus stop' for name in plain if name)
+
+
 def node_at(document: Any, path: str) -> Any:
     """Return what stands at a path such as `missions/m1/altitude_m`; None where nothing does."""
     node = document
@@ -136,8 +148,13 @@ class Request:
         return list(read_map_file(self._map_name(), file)['features'])
 
     def landmarks(self) -> dict[str, tuple[float, float]]:
-        """Return where the landmarks of the map are, by their references."""
-        return {
+        """Return where the landmarks of the map are, and inside its areas, by their references."""
+        areas = {
+            f'landmark:{f["properties"]["name"]}': _inside(f)
+            for f in reversed(self.features('zones.geojson'))
+            if f['properties']['kind'] != 'no_fly' and f['properties'].get('name')
+        }
+        return areas | {
             f'landmark:{f["properties"]["name"]}': (
                 float(f['geometry']['coordinates'][0]),
                 float(f['geometry']['coordinates'][1]),

@@ -151,6 +151,9 @@ class SendMessage(Element):
 # What takes speed off, and may be told how hard.
 BRAKING = frozenset({'brake', 'stop', 'slow'})
 
+# What only who is on the move can do, whether or not it has to brake for it.
+SLOWS = BRAKING | {'yield'}
+
 
 class AgentAction(Element):
     """A ground agent changes what it does.

@@ -131,6 +131,57 @@ def test_who_is_to_be_seen_for_a_time_waits_until_somebody_looks(
     assert releases == [ReleaseOn.START, ReleaseOn.CAPTURED]
 
 
+@pytest.mark.parametrize(
+    ('prompt', 'who'),
+    [
+        (
+            'A drone tracks a motorcycle. As soon as it sees a cyclist, the motorcycle brakes.',
+            'motorcycle1',
+        ),
+        (
+            'When the drone sees a pedestrian, it alerts the ego car and the ego car stops. The '
+            'drone tracks the ego car at 40 m.',
+            'ego',
+        ),
+        ('A pedestrian walks on the sidewalk and stops when the drone sees him.', 'pedestrian1'),
+    ],
+    ids=['target', 'told', 'on-foot'],
+)
+def test_who_slows_at_sight_is_on_the_move_by_then(
+    prompt: str, who: str, read_prompt: Read, ground: Ground
+) -> None:
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    told = next(a for a in found.agents if a.id == who)
+    assert told.release is ReleaseOn.START
+    # Who is tracked is caught up with.
+    assert told.is_person or told.speed_factor < 0.6
+
+
+def test_who_stops_near_a_hover_begins_out_of_reach(read_prompt: Read, ground: Ground) -> None:
+    prompt = 'When the drone is within 50 m of the ego car, the ego car stops.'
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    (ego,), (uav,) = found.agents, found.uavs
+    x, y, z = uav.missions[0].hover_point or (0.0, 0.0, 0.0)
+    assert np.linalg.norm((x - ego.x_m, y - ego.y_m, z)) > 60.0
+    assert np.hypot(uav.home_x_m - ego.x_m, uav.home_y_m - ego.y_m) > 50.0
+
+
+def test_who_comes_near_a_crosswalk_on_foot_begins_farther_off(
+    read_prompt: Read, ground: Ground
+) -> None:
+    prompt = (
+        'A drone hovers over the crosswalk at 35 m. When a pedestrian comes within 20 m of the '
+        'crosswalk, the drone alerts the roadside unit.'
+    )
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    person = next(a for a in found.agents if a.type_name == 'pedestrian')
+    post = next(a for a in found.agents if a.type_name == 'rsu')
+    x, y, _ = found.uavs[0].missions[0].hover_point or (0.0, 0.0, 0.0)
+    assert np.hypot(x - person.x_m, y - person.y_m) > 22.0
+    # The unit stands off the way of who comes along there.
+    assert post.lateral_m < -0.5 < person.lateral_m
+
+
 @pytest.mark.parametrize('agent', ['cyclist', 'truck'])
 def test_who_is_to_get_out_of_sight_does_so_early_on_its_way(
     agent: str, read_prompt: Read, ground: Ground, air: Airspace

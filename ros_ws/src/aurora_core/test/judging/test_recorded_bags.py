@@ -16,8 +16,9 @@ from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.pipeline.verification import Judged, judge_content, load_bag
 
 FOLDER = Path(__file__).parent / 'recorded'
-# Its request implies another condition since: a turn counts at the place that it is asked at.
-OTHERWISE = ('turn',)
+# Their requests imply another condition since: a turn counts at the place that it is asked at, and
+# a wind has to be seen in the flight.
+OTHERWISE = ('turn', 'wind')
 VERDICTS: dict[str, dict[str, Any]] = json.loads((FOLDER / 'verdicts.json').read_text())
 
 

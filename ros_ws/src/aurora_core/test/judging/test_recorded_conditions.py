@@ -39,11 +39,12 @@ def _recorded(quantity: str, aspect: str) -> dict[str, Any]:
 SINCE = {
     'angle_swept', 'at_place', 'battery', 'braking_deceleration', 'clearance',
     'climb_after_phase', 'climb_delay', 'delivered_at', 'distance_fraction', 'done_delay',
-    'driver_waits', 'event_climb_rate', 'gust_speed', 'hardest_braking', 'lane_kept_after',
-    'longest_standstill', 'message_text', 'motion_time', 'never_delivered', 'never_sent', 'outage',
-    'phase_after_event', 'report_gap', 'report_latency', 'return_distance', 'side_fraction',
-    'speed_once_there', 'standing_time', 'time_headway', 'time_to_collision', 'traffic', 'undone',
-    'vertical_speed', 'way_altitude', 'wind_course', 'wind_from', 'wind_speed',
+    'driver_waits', 'event_climb_rate', 'gust_blown', 'gust_speed', 'hardest_braking',
+    'lane_kept_after', 'longest_standstill', 'message_text', 'motion_time',
+    'moving_before_action', 'never_delivered', 'never_sent', 'outage', 'phase_after_event',
+    'report_gap', 'report_latency', 'return_distance', 'side_fraction', 'speed_once_there',
+    'standing_time', 'time_headway', 'time_to_collision', 'traffic', 'undone', 'vertical_speed',
+    'way_altitude', 'wind_blown', 'wind_course', 'wind_from', 'wind_speed',
 }  # fmt: skip
 
 

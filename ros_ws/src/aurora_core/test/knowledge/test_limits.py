@@ -39,6 +39,13 @@ def _changed(tmp_path: Path, name: str, field: str, value: Any) -> Path:
     return path
 
 
+def test_the_drag_is_that_of_the_multirotor() -> None:
+    body = json.loads(config_path('multirotor.json').read_text())['body']
+    limits = load_limits(config_path('limits.json'))
+    assert limits.uav_drag_hz == pytest.approx(body['drag_linear_nspm'] / body['mass_kg'])
+    assert limits.uav_drag_per_m == pytest.approx(body['drag_quadratic_ns2pm2'] / body['mass_kg'])
+
+
 def test_shipped_limits_are_those_of_the_contract() -> None:
     limits = load_limits(config_path('limits.json'))
     assert (limits.uav_altitude_min_m, limits.uav_altitude_max_m) == (3.0, 120.0)

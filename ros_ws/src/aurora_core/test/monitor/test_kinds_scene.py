@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kind_rows import Row, cut, gone
-from trace_builder import driver, number
+from kind_rows import Row, cut, gone, grounded
+from trace_builder import DT_S, driver, number
 from trace_cases import Case, convoy_case, ground_case, hover_case, spec, survey_case
 
 from aurora_core.knowledge.world import CentreLine, Wind
@@ -20,6 +20,7 @@ from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.trace.layout import UavColumn
 
 T = 401
 SHORT = Reason.TRACE_SHORT
@@ -122,7 +123,68 @@ def _gusting(over_mps: float, asked_mps: float, bound: Bound = Bound.EXACTLY) ->
     return case
 
 
+def _leaning(case: Case, east_mps: float, north_mps: float) -> Case:
+    """Let who flies lean as it has to where the air goes so."""
+    limits = case.world.limits
+    for one in case.run.flights:
+        velocity = one.states[:, UavColumn.VX : UavColumn.VZ + 1]
+        gain = np.zeros_like(velocity)
+        gain[1:-1] = (velocity[2:] - velocity[:-2]) / (2.0 * DT_S)
+        air = velocity - (east_mps, north_mps, 0.0)
+        speed = np.linalg.norm(air, axis=1)
+        drag = (limits.uav_drag_hz + limits.uav_drag_per_m * speed)[:, None] * air
+        up = gain[:, 2] + 9.80665 + drag[:, 2]
+        axis = np.column_stack(((gain + drag)[:, :2] / up[:, None], np.ones(len(up))))
+        axis /= np.linalg.norm(axis, axis=1)[:, None]
+        half = np.sqrt((1.0 + axis[:, 2]) / 2.0)
+        one.states[:, UavColumn.QW] = half
+        one.states[:, UavColumn.QX] = -axis[:, 1] / (2.0 * half)
+        one.states[:, UavColumn.QY] = axis[:, 0] / (2.0 * half)
+    return case
+
+
+def _blown(east_mps: float, north_mps: float) -> Case:
+    """5 m/s to the east are asked for and recorded; who hovers leans against another wind."""
+    asked = number(5.0, Unit.METRE_PER_SECOND, explicit=True)
+    return _leaning(_wind(5.0, 0.0, hover_case(), wind_mps=asked), east_mps, north_mps)
+
+
+def _shaken(gust_mps: float) -> Case:
+    """Gusts of 4 m/s are asked for: every other second the air goes so fast, and back."""
+    case = hover_case()
+    asked = number(4.0, Unit.METRE_PER_SECOND, explicit=True)
+    case.spec = spec(**{**dict(case.spec), 'world': {'gust_mps': asked}})
+    case.world = replace(case.world, wind=Wind(gust_mps=4.0))
+    still = _leaning(case, -gust_mps, 0.0).run.flights[0].states.copy()
+    one = _leaning(case, gust_mps, 0.0).run.flights[0]
+    back = np.arange(len(still)) // 20 % 2 == 1
+    one.states[back] = still[back]
+    return case
+
+
 ROWS = (
+    # 0.5 m/s are allowed where no gusts are asked for, and the least of a gust is 0.4 of it.
+    Row(id='world.wind_blown.uav1', make=lambda: _blown(5.0, 0.3), margin=0.2, within=1e-3),
+    Row(id='world.wind_blown.uav1', make=lambda: _blown(0.0, 0.0), margin=-4.5, within=1e-3),
+    Row(
+        id='world.wind_blown.uav1',
+        make=lambda: _blown(-5.0, 0.0),
+        margin=-9.5,
+        within=1e-3,
+        what='turned',
+    ),
+    Row(
+        id='world.wind_blown.uav1',
+        make=lambda: grounded(_blown(5.0, 0.0)),
+        reason=Reason.EMPTY_PHASE,
+    ),
+    Row(id='world.gust_blown.uav1', make=lambda: _shaken(3.0), margin=1.4, within=0.1),
+    Row(id='world.gust_blown.uav1', make=lambda: _shaken(0.0), margin=-1.6, within=0.05),
+    Row(
+        id='world.gust_blown.uav1',
+        make=lambda: grounded(_shaken(3.0)),
+        reason=Reason.EMPTY_PHASE,
+    ),
     # 1 % is allowed.
     Row(id='world.gust_speed', make=lambda: _gusting(3.0, 8.0), margin=0.08),
     Row(id='world.gust_speed', make=lambda: _gusting(0.0, 8.0), margin=0.08 - 8.0),

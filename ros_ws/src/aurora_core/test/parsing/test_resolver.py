@@ -71,6 +71,7 @@ def test_background_cars_are_a_group_with_a_role() -> None:
         ('The ego car follows another ego car.', 'another ego car'),
         ('A drone tracks it.', 'it'),
         ('An emergency vehicle stops.', 'police, ambulance, firetruck'),
+        ('A van follows a truck. When the leader brakes, the van brakes.', 'leader'),
         ('It is sunny and it is snowing. A bus stops.', 'clear or snow'),
         ('A drone tracks something while two cars circulate.', 'tracked'),
         ('No drone. A drone tracks a bus.', 'UAV or not'),

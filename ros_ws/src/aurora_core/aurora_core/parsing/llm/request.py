@@ -98,7 +98,12 @@ def _short(facts: PromptFacts) -> str:
 
 
 def _known(facts: PromptFacts, most: int) -> str:
-    landmarks = _nearest(facts.context.landmark_names, facts.prompt, most)
+    names = facts.context.landmark_names
+    known = len(names) - facts.context.grounds
+    # Of areas and stops a map may have hundreds: those that the prompt names will do.
+    named = {atom.noun.key for atom in facts.places if atom.noun is not None}
+    offered = (*names[:known], *(name for name in names[known:] if name in named))
+    landmarks = _nearest(offered, facts.prompt, most)
     places = [p.value for p in Place] + [f'landmark:{name}' for name in landmarks]
     return 'Known here: ' + json.dumps({'map': facts.context.map_name, 'places': places})
 

@@ -98,7 +98,7 @@ def draw_check(
         lines = [*map(_route, grounded.agents), *map(flights.way, grounded.uavs)]
         ways = np.array([p for line in lines for p in _between(line)]).reshape(-1, 2)
         draw_ground(ax, ground_of_map(model), box, scale, ways)
-        places = {f'{LANDMARK}{m.name}': (m.x_m, m.y_m) for m in model.landmarks}
+        places = {f'{LANDMARK}{m.name}': (m.x_m, m.y_m) for m in model.places}
         places |= {a.id: (a.x_m, a.y_m) for a in grounded.agents}
         places |= {u.id: flights.spot(u, u.missions[0]) for u in grounded.uavs if u.missions}
         _anchors(ax, tried)
