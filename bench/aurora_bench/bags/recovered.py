@@ -45,6 +45,8 @@ def recovered(
     for path in (bag, Path(recovery.bag)):
         judgement = judge(path)
         known = {'truncated', 'unknown'}
+        if path != bag:
+            known.add('altered')  # it has not the name of a bag of the run that it lies in
         if recovery.last_complete_tick <= 0:
             known.add('')  # killed within the first ticks: there may be nothing to judge
         if not judgement.refused or judgement.integrity not in known:

@@ -17,7 +17,16 @@ from aurora_bench.progress import Progress
 from aurora_bench.results import ResultsError
 from aurora_bench.resumable.code import code_digest
 from aurora_bench.resumable.journal import Journal, JournalHead
-from aurora_bench.trust import clocks, disk, documents, machinery, mavlink, model, orders
+from aurora_bench.trust import (
+    clocks,
+    disk,
+    documents,
+    machinery,
+    mavlink,
+    model,
+    orders,
+    surroundings,
+)
 from aurora_bench.trust.part import NOTHING, Found, Part
 from aurora_bench.trust.table import Entry, write_table
 from aurora_core.files import DOCUMENT_BYTES, read_json
@@ -65,6 +74,14 @@ PARTS = (
     Part(
         ident='R16', name='clocks moved, in the graph', wanted=11, usual=3, chunk=11,
         run=clocks.moved_in_the_graph,
+    ),
+    Part(
+        ident='R16', name='time zones and languages', wanted=12, usual=12, chunk=4,
+        run=surroundings.places,
+    ),
+    Part(
+        ident='R18', name='little memory, few files', wanted=16, usual=16, chunk=4,
+        run=surroundings.limits,
     ),
     Part(ident='R18', name='full disks', wanted=20, usual=20, chunk=1, run=disk.full_disk),
     Part(

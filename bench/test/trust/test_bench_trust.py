@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import subprocess
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -13,7 +14,15 @@ import pytest
 
 from aurora_bench.machine import machine_facts
 from aurora_bench.trust import __main__ as campaign
-from aurora_bench.trust import clocks, documents, machinery, mavlink, model, orders
+from aurora_bench.trust import (
+    clocks,
+    documents,
+    machinery,
+    mavlink,
+    model,
+    orders,
+    surroundings,
+)
 from aurora_bench.trust.counted import COUNTED
 from aurora_bench.trust.part import NEVER, NOTHING, Counter, Found, Part
 from aurora_bench.trust.table import PROMISES, Entry, write_table
@@ -216,6 +225,22 @@ def test_without_libfaketime_no_clock_is_said_to_have_been_moved(
     monkeypatch.setenv('AURORA_FAKETIME', str(tmp_path / 'nowhere'))
     assert clocks.moved(0, 1, tmp_path) == NOTHING
     assert clocks.moved_in_the_graph(0, 1, tmp_path) == NOTHING
+
+
+@pytest.mark.parametrize(
+    ('code', 'said', 'problem'),
+    [
+        (0, b'{}', ''),
+        (4, b'{"hint": "raise ulimit -n"}', ''),
+        (4, b'it broke', 'what there is too little of is not said'),
+        (1, b'ulimit', 'exit code 1'),
+        (-11, b'aurora: execute', 'exit code -11'),
+    ],
+)
+def test_an_end_without_a_word_is_none(code: int, said: bytes, problem: str) -> None:
+    done = subprocess.CompletedProcess[bytes]((), code, said, b'')
+    assert surroundings.told_badly(done).startswith(problem)
+    assert bool(surroundings.told_badly(done)) is bool(problem)
 
 
 def test_a_duration_of_another_day_is_seen() -> None:
