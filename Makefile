@@ -9,7 +9,7 @@ PROMPT ?= A van tailgates the ego car closely, closing from 45 meters; a trackin
 export PROMPT
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo up down test lint typecheck site lock sbom maps clean
+.PHONY: help setup demo up down test coverage lint typecheck site lock sbom maps clean
 
 help: ## this list
 	@sed -nE 's/^([a-z%-]+):.*## (.*)/make \1\t\2/p' Makefile | expand -t 18
@@ -30,6 +30,10 @@ test: ## every test (PYTEST_ADDOPTS=… for options)
 	@tools/setup.sh --dev
 	@tools/test.sh
 
+coverage: ## how much of the core the tests run, and which error codes they provoke, in coverage/
+	@tools/setup.sh --dev
+	@tools/coverage.sh coverage
+
 lint: ## ruff (lint and format), the import rules, bandit, packages, widths and word lists
 	@tools/setup.sh --dev --no-build
 	@tools/lint.sh
@@ -43,7 +47,7 @@ site: ## the documentation as a site in site/ (no network)
 	@NO_MKDOCS_2_WARNING=1 .venv/bin/python -m mkdocs build --strict
 	@echo "site: open site/index.html"
 
-bench-%: ## one benchmark or campaign: lockstep, latency, faults, bags, graphs, endurance, replay, stl, stn, maps, matrix, encounters, online, mutation, trust, contradictions, judged, fidelity, realise, outcome, feasibility, repair, fuzz, retrieval (results in docs/bench)
+bench-%: ## one benchmark or campaign: lockstep, latency, faults, deaths, bags, graphs, endurance, replay, stl, stn, maps, matrix, encounters, online, mutation, trust, contradictions, judged, fidelity, realise, outcome, feasibility, repair, fuzz, guided, retrieval (results in docs/bench)
 	@tools/setup.sh --dev
 	@tools/in_env.sh python -m aurora_bench.$* --results docs/bench
 

@@ -45,7 +45,7 @@ for tag in 3.11 3.12; do
   "$python" -m venv "$scratch/$tag"
   "$scratch/$tag/bin/python" -m pip install --quiet --upgrade pip 'pip-tools==7.6.2'
   # What is locked already, for 3.12 what 3.11 got, is preferred: same versions on both.
-  for kind in run dev rivals system system-dev; do
+  for kind in run dev rivals fuzz system system-dev; do
     preferred="${kind#system-}-py3.11.txt"
     [ "$kind" != system ] || preferred=run-py3.11.txt
     if [ -f "$preferred" ]; then cp "$preferred" "$scratch/$kind-py$tag.txt"; fi
@@ -53,6 +53,7 @@ for tag in 3.11 3.12; do
   compile "$tag" run run
   compile "$tag" dev dev -c "run-py$tag.txt"
   compile "$tag" rivals rivals
+  compile "$tag" fuzz fuzz
   # The system's ROS 2 Jazzy has Python 3.12 only.
   if [ "$tag" = 3.12 ]; then
     compile "$tag" system system

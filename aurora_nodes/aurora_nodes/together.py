@@ -25,6 +25,7 @@ from pathlib import Path
 
 from aurora_nodes.modules import MODULES
 from aurora_nodes.supervision import VARIABLE
+from aurora_ros.enclaves import take_enclave
 from aurora_ros.main import READY_FILE_VARIABLE
 from aurora_ros.processes import process_state
 
@@ -86,5 +87,6 @@ def _become(name: str, core: str, run_dir: Path, log_dir: Path) -> None:
     os.close(log)
     os.environ[READY_FILE_VARIABLE] = str(run_dir / f'{name}.ready')
     os.environ[VARIABLE] = str(run_dir)
+    take_enclave(name)
     sys.argv = [name]
     _COMM.write_text(name, encoding='ascii')  # what `ps` and `top` show

@@ -17,13 +17,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from rosbags.highlevel import AnyReader
-
-from aurora_bench.bags.judge import judge
-from aurora_core.errors import BagError, ExecutionError
+from aurora_bench.bags.recovered import recovered
+from aurora_core.errors import ExecutionError
 from aurora_core.trace.bag_reader import read_bag
-from aurora_core.trace.bag_recover import recover_bag
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.trace import Trace
 from aurora_msgs.action import RunScenario
@@ -119,52 +115,18 @@ def _run(graph: RunningGraph) -> Any:
 
 def _look(result: Any, killed_s: float, reference: Trace, definitions: MessageDefinitions) -> Kill:
     bag = Path(result.run_dir) / 'bag.0'
-    before = {path.name: path.read_bytes() for path in bag.iterdir()}
     problems = []
     if killed_s < 0.0:
         problems.append('the run ended before the kill')
     if result.status != 'error':
         problems.append(f'the run ended as {result.status}')
-    try:
-        recovery = recover_bag(bag, None, definitions)
-    except BagError as err:
-        # Killed before roster and world were stored: there is nothing to recover yet, and the
-        # limit of what may be lost judges whether that was early enough.
-        if not judge(bag).refused:
-            problems.append(f'a bag without content is judged: {err}')
-        return Kill(
-            killed_s=killed_s,
-            recovered_s=0.0,
-            status=result.status,
-            component=_component(result.report_json),
-            problem='; '.join(problems),
-        )
-    if {path.name: path.read_bytes() for path in bag.iterdir()} != before:
-        problems.append('the original was changed')
-    with AnyReader([Path(recovery.bag)]) as reader:
-        if sum(recovery.kept.values()) != sum(1 for _ in reader.messages()):
-            problems.append('rosbags reads another number of messages')
-    for path in (bag, Path(recovery.bag)):
-        judgement = judge(path)
-        known = {'truncated', 'unknown'}
-        if recovery.last_complete_tick <= 0:
-            known.add('')  # killed within the first ticks: there may be nothing to judge
-        if not judgement.refused or judgement.integrity not in known:
-            problems.append(f'{path.name} is {judgement.integrity}, exit code {judgement.code}')
-    trace = read_bag(Path(recovery.bag), definitions).trace
-    upto = recovery.last_complete_tick + 1
-    if not (
-        np.array_equal(trace.ground[:upto], reference.ground[:upto])
-        and np.array_equal(trace.uav[:upto], reference.uav[:upto])
-        and trace.ground_commands[:upto] == reference.ground_commands[:upto]
-    ):
-        problems.append('a recovered value differs from the undisturbed run')
+    recovered_s, more = recovered(bag, reference, definitions)
     return Kill(
         killed_s=killed_s,
-        recovered_s=recovery.complete_s,
+        recovered_s=recovered_s,
         status=result.status,
         component=_component(result.report_json),
-        problem='; '.join(problems),
+        problem='; '.join([*problems, *more]),
     )
 
 

@@ -11,15 +11,16 @@ import resource
 import signal
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from aurora_core.errors import AuroraError
 
 NAMES = (
     'uav_sim', 'sync', 'sumo_bridge', 'uav_bridge', 'recorder',
-    'monitor', 'executor', 'grounding', 'parser', 'orchestrator',
+    'monitor', 'executor', 'grounding', 'parser', 'repair', 'orchestrator',
 )  # fmt: skip
 _START_S = 300
 UP = ('ros2', 'run', 'aurora_bringup', 'up', '--timeout', str(_START_S))
@@ -54,9 +55,13 @@ class LiveGraph:
     Args:
         folder: For pid files, logs and runs.
         domain: ROS_DOMAIN_ID.
+        more: Of the environment of its processes.
     """
 
-    def __init__(self, folder: Path, domain: int) -> None:
+    def __init__(
+        self, folder: Path, domain: int, more: Mapping[str, str] = MappingProxyType({})
+    ) -> None:
+        folder.mkdir(exist_ok=True)
         self._folder = folder
         self._domain = domain
         self._mark = f'AURORA_RUN_DIR={folder / "graph"}'.encode()
@@ -64,6 +69,7 @@ class LiveGraph:
             **os.environ,
             'ROS_DOMAIN_ID': str(domain),
             'AURORA_RUN_DIR': str(folder / 'graph'),
+            **more,
         }
         self._environment.pop('ROS_LOG_DIR', None)
 
@@ -101,14 +107,10 @@ class LiveGraph:
         if done.returncode != 0:
             raise CampaignError(f'up ended with {done.returncode}: {done.stderr}')
 
-    def foreground(self) -> subprocess.Popen[str]:
-        """Start it with `up` in the foreground and wait until it is ready.
-
-        Raises:
-            CampaignError: It did not start.
-        """
-        process = subprocess.Popen(
-            UP,
+    def begin(self, command: tuple[str, ...] = UP) -> subprocess.Popen[str]:
+        """Begin to start it and return at once."""
+        return subprocess.Popen(
+            command,
             env=self._environment,
             cwd=self._folder,
             stdin=subprocess.DEVNULL,
@@ -118,6 +120,14 @@ class LiveGraph:
             start_new_session=True,
             preexec_fn=_prepare,
         )
+
+    def foreground(self) -> subprocess.Popen[str]:
+        """Start it with `up` in the foreground and wait until it is ready.
+
+        Raises:
+            CampaignError: It did not start.
+        """
+        process = self.begin()
         assert process.stdout is not None
         said = ''
         for line in process.stdout:

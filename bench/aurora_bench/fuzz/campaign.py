@@ -109,7 +109,7 @@ def fuzz_replies(
 ) -> Tally:
     """Judge mutated replies to the shipped examples of prompts."""
     rows: list[dict[str, Any]] = read_data('llm/examples.yaml')['examples']
-    known = [(PromptFacts(row['prompt'], context), _typed(row['answer'])) for row in rows]
+    known = [(PromptFacts(row['prompt'], context), typed(row['answer'])) for row in rows]
 
     def case(one: int) -> Case:
         draw = random.Random(one)
@@ -127,12 +127,12 @@ def fuzz_replies(
     return _run(case, number, seed, said)
 
 
-def _typed(value: Any) -> Any:
+def typed(value: Any) -> Any:
     """Give the words of a YAML file read as text their numbers and truth values back."""
     if isinstance(value, dict):
-        return {key: _typed(inner) for key, inner in value.items()}
+        return {key: typed(inner) for key, inner in value.items()}
     if isinstance(value, list):
-        return [_typed(inner) for inner in value]
+        return [typed(inner) for inner in value]
     if value in ('true', 'false'):
         return value == 'true'
     try:

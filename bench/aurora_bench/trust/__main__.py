@@ -17,7 +17,16 @@ from aurora_bench.progress import Progress
 from aurora_bench.results import ResultsError
 from aurora_bench.resumable.code import code_digest
 from aurora_bench.resumable.journal import Journal, JournalHead
-from aurora_bench.trust import disk, documents, machinery, mavlink, model
+from aurora_bench.trust import (
+    clocks,
+    disk,
+    documents,
+    machinery,
+    mavlink,
+    model,
+    orders,
+    surroundings,
+)
 from aurora_bench.trust.part import NOTHING, Found, Part
 from aurora_bench.trust.table import Entry, write_table
 from aurora_core.files import DOCUMENT_BYTES, read_json
@@ -44,8 +53,12 @@ PARTS = (
         run=mavlink.uploads_cut,
     ),
     Part(
-        ident='R12', name='hostile model servers', wanted=240, usual=36, chunk=18,
+        ident='R12', name='hostile model servers', wanted=120, usual=36, chunk=18,
         run=model.model_servers,
+    ),
+    Part(
+        ident='R12', name='hostile model servers, in repair', wanted=120, usual=36, chunk=12,
+        run=model.revisions,
     ),
     Part(
         ident='R13', name='failsafes, as tests', wanted=126, usual=1, chunk=1,
@@ -57,10 +70,34 @@ PARTS = (
         run=machinery.sumo,
     ),
     Part(ident='R16', name='clocks, as tests', wanted=25, usual=1, chunk=1, run=machinery.clocks),
+    Part(ident='R16', name='clocks moved', wanted=33, usual=6, chunk=1, run=clocks.moved),
+    Part(
+        ident='R16', name='clocks moved, in the graph', wanted=11, usual=3, chunk=11,
+        run=clocks.moved_in_the_graph,
+    ),
+    Part(
+        ident='R16', name='time zones and languages', wanted=12, usual=12, chunk=4,
+        run=surroundings.places,
+    ),
+    Part(
+        ident='R18', name='little memory, few files', wanted=16, usual=16, chunk=4,
+        run=surroundings.limits,
+    ),
     Part(ident='R18', name='full disks', wanted=20, usual=20, chunk=1, run=disk.full_disk),
     Part(
         ident='R20', name='orders in prompts', wanted=300, usual=300, chunk=30,
-        run=documents.injections,
+        run=orders.injections,
+    ),
+    Part(
+        ident='R20', name='orders in replies of models', wanted=50, usual=50, chunk=10,
+        run=orders.model_replies,
+    ),
+    Part(
+        ident='R20', name='orders in past episodes', wanted=100, usual=100, chunk=20,
+        run=orders.past_episodes,
+    ),
+    Part(
+        ident='R20', name='orders in repair', wanted=50, usual=50, chunk=10, run=orders.repairs
     ),
     Part(
         ident='R21', name='locked packages', wanted=1, usual=1, chunk=1,
@@ -68,6 +105,14 @@ PARTS = (
     ),
     Part(
         ident='R22', name='lint and types', wanted=2, usual=1, chunk=1, run=machinery.findings
+    ),
+    Part(
+        ident='R22', name='coverage of the core', wanted=2, usual=1, chunk=1,
+        run=machinery.coverage,
+    ),
+    Part(
+        ident='R22', name='error codes provoked', wanted=18, usual=1, chunk=1,
+        run=machinery.provoked,
     ),
 )  # fmt: skip
 

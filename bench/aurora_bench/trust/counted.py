@@ -76,6 +76,28 @@ def _kills(result: _Result) -> Found:
     )
 
 
+def _whole(result: _Result) -> Found:
+    return _cases((k['held'], f'graph {k["number"]}, {k["planned"]}') for k in result['whole'])
+
+
+def _in_stages(result: _Result) -> Found:
+    return _cases((c['held'], json.dumps(c['death'])) for c in result['cells'])
+
+
+def _guided(result: _Result) -> Found:
+    parts = [part for each in result['parts'].values() for part in each]
+    tried = sum(part['tried'] for part in parts)
+    bad = [where for part in parts for where in part['found']]
+    bad += [part['problem'] for part in parts if part['problem']]
+    slowest = max(part['slowest_s'] for part in parts)
+    return Found(
+        tried=tried,
+        held=tried - len(bad),
+        failures=tuple(bad[:20]),
+        figures={'slowest [s]': round(slowest, 2)},
+    )
+
+
 def _damaged(result: _Result) -> Found:
     return _cases(
         (d['exit_code'] != 0 and d['integrity'] != 'intact' and bool(d['text']), d['name'])
@@ -128,6 +150,7 @@ def _endurance(result: _Result) -> Found:
 
 COUNTED = (
     Counted(ident='R1', name='recorders killed, recovered', wanted=200, bench='bags', read=_kills),
+    Counted(ident='R1', name='graphs killed whole', wanted=200, bench='deaths', read=_whole),
     Counted(ident='R2', name='damaged bags', wanted=1200, bench='bags', read=_damaged),
     Counted(
         ident='R3', name='runs repeated, equal', wanted=100, bench='endurance', read=_repeated
@@ -136,7 +159,11 @@ COUNTED = (
         ident='R4', name='live, bag and replay equal', wanted=30, bench='replay', read=_replayed
     ),
     Counted(ident='R5', name='altered runs', wanted=500, bench='mutation', read=_mutants),
-    Counted(ident='R6', name='nodes that die in a run', wanted=144, bench='faults', read=_deaths),
+    Counted(ident='R6', name='nodes that die in a run', wanted=63, bench='faults', read=_deaths),
+    Counted(
+        ident='R6', name='nodes that die from start to repair', wanted=168, bench='deaths',
+        read=_in_stages,
+    ),
     Counted(
         ident='R7', name='nothing left, next run equal', wanted=144, bench='faults',
         read=_nothing_left,
@@ -144,6 +171,9 @@ COUNTED = (
     Counted(ident='R8', name='up and down', wanted=200, bench='faults', read=_up_and_down),
     Counted(
         ident='R9', name='damaged prompts and replies', wanted=20_000, bench='fuzz', read=_fuzzed
+    ),
+    Counted(
+        ident='R9', name='inputs led to new code', wanted=6_000_000, bench='guided', read=_guided
     ),
     Counted(
         ident='R17', name='runs of four graphs at once', wanted=40, bench='graphs', read=_parallel

@@ -10,8 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from aurora_bench.trust.documents import _PROMPT as PROMPT
-from aurora_bench.trust.documents import quiet_run
+from aurora_bench.trust.documents import PROMPT, quiet_run
 from aurora_bench.trust.part import Counter, Found
 
 _STEP_KIB = 24

@@ -4,14 +4,18 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as Xml
 from collections.abc import Sequence
+from functools import cache
+from importlib import import_module
 from pathlib import Path
 
-from aurora_bench.trust.part import Counter, Found
+from aurora_bench.trust.part import NOTHING, Counter, Found
+from aurora_core.errors import AuroraError
 
 ROOT = Path(__file__).resolve().parents[3]
 _LIMIT_S = 1800.0
@@ -88,6 +92,65 @@ def supply_chain(first: int, count: int, folder: Path) -> Found:
         for package in tool.read_lock(lock):
             counter.add(problems.get(package.name, ''))
     return counter.found()
+
+
+# R22: of the whole core, in percent.
+LEAST_LINES, LEAST_BRANCHES = 95.0, 90.0
+_TESTS_LIMIT_S = 5400.0
+
+
+@cache
+def _tested(folder: Path) -> Path:
+    """Run the tests with coverage once; return the folder of what they gave."""
+    found = folder / 'coverage'
+    subprocess.run(
+        ['tools/coverage.sh', str(found)],
+        cwd=ROOT, capture_output=True, timeout=_TESTS_LIMIT_S, check=False,
+    )  # fmt: skip
+    return found
+
+
+def coverage(first: int, count: int, folder: Path) -> Found:
+    """Lines and branches of the core that the tests run; a case each."""
+    path = _tested(folder) / 'coverage.json'
+    if not path.exists():
+        return NOTHING
+    totals = json.loads(path.read_text())['totals']
+    lines = 100.0 * totals['covered_lines'] / totals['num_statements']
+    branches = 100.0 * totals['covered_branches'] / totals['num_branches']
+    counter = Counter()
+    for what, share, least in (
+        ('lines', lines, LEAST_LINES),
+        ('branches', branches, LEAST_BRANCHES),
+    ):
+        counter.figure(f'{what} [%]', round(share, 1))
+        counter.add('' if share >= least else f'{share:.1f} % of the {what}, expected {least:g}')
+    return counter.found()
+
+
+def provoked(first: int, count: int, folder: Path) -> Found:
+    """Every error code that there is, is provoked by a test; a case each."""
+    noted = {
+        code
+        for path in (_tested(folder) / 'codes').glob('*.json')
+        for code in json.loads(path.read_text())
+    }
+    counter = Counter()
+    for code in sorted(codes()):
+        counter.add('' if code in noted else f'no test provokes {code}')
+    return counter.found()
+
+
+def codes() -> set[int]:
+    """Return the wire codes of all errors that the product may raise."""
+    for name in ('aurora_core.errors', 'aurora_uav_bridge.errors'):
+        import_module(name)
+
+    def below(kind: type[AuroraError]) -> set[int]:
+        found = {kind.default_code}.union(*(below(each) for each in kind.__subclasses__()))
+        return found if kind.__module__.partition('.')[0] != 'aurora_bench' else set()
+
+    return below(AuroraError)
 
 
 def findings(first: int, count: int, folder: Path) -> Found:

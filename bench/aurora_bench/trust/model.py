@@ -1,16 +1,21 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""R12: a model server may misbehave in any way; reading a prompt ends in time all the same."""
+"""R12: a model server may misbehave in any way; what asks it ends in time all the same."""
 
 from __future__ import annotations
 
+import json
 import random
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from aurora_bench.trust.part import Counter, Found
+from aurora_bench.trust.revision import OPEN_FIELD, problem_of, revise, scene
 from aurora_cli.installed import installed
 from aurora_core.pipeline.stages import RunRequest
+from aurora_core.repair.helps import ANCHOR
+from aurora_llm.model_parse import client_of
 from aurora_llm.parse import read_prompt
 from aurora_llm.settings import ModelSettings, load_model_settings
 from aurora_llm.testing.model_server import ModelServer, Turn
@@ -62,19 +67,66 @@ def model_servers(first: int, count: int, _: Path) -> Found:
     A case holds when it ends within its deadline, with at most so many calls as are allowed, with
     no specification, with the prompt sent nowhere else and no key in what is recorded.
     """
+
+    def ask(request: RunRequest, settings: ModelSettings) -> tuple[str, str]:
+        outcome = read_prompt(installed(), request, settings)
+        problem = '' if outcome.spec is None else 'a specification came of it'
+        return problem, outcome.model_dump_json()
+
+    return _asked(first, count, _turns, ask)
+
+
+def revisions(first: int, count: int, _: Path) -> Found:
+    """Revise a realisation with a hostile server, as repair does.
+
+    A case holds when it ends within its deadline, with at most so many calls as are allowed,
+    nothing moves but what is open, and no key is in what is recorded.
+    """
+    scene()
+
+    def ask(request: RunRequest, settings: ModelSettings) -> tuple[str, str]:
+        client = client_of(request.model, settings, request)
+        proposal = revise(client, settings.attempts)
+        return problem_of(proposal), proposal.model_dump_json()
+
+    return _asked(first, count, _revising_turns, ask)
+
+
+def _revising_turns(number: int) -> tuple[str, Turn]:
+    """Return an answer as for a prompt, or one that has the form of a revision."""
+    wrong = (
+        ('outside', [{'field': OPEN_FIELD, 'value': 1e6}]),
+        ('not finite', [{'field': OPEN_FIELD, 'value': float('nan')}]),
+        ('what is stated', [{'field': 'events/e1/trigger/value_m', 'value': 90.0}]),
+        ('too many', [{'field': f'missions/m1/x{k}', 'value': 1.0} for k in range(7)]),
+        ('twice', [{'field': OPEN_FIELD, 'value': 50.0}] * 2),
+        ('the place with a value', [{'field': ANCHOR, 'value': 3.0}]),
+    )
+    if number % 2:
+        return _turns(number // 2)
+    kind, fields = wrong[number // 2 % len(wrong)]
+    return kind, Turn(text=json.dumps({'fields': fields, 'because': 'it is so'}))
+
+
+def _asked(
+    first: int,
+    count: int,
+    turns: Callable[[int], tuple[str, Turn]],
+    ask: Callable[[RunRequest, ModelSettings], tuple[str, str]],
+) -> Found:
+    """Ask hostile servers; `ask` returns what is wrong and what would be recorded."""
     counter = Counter()
     settings = _settings()
     _warm(settings)
     limit_s = _ATTEMPTS * _TIMEOUT_S + _SLACK_S
     for number in range(first, first + count):
-        kind, turn = _turns(number)
+        kind, turn = turns(number)
         with ModelServer([turn]) as server:
             request = RunRequest(prompt=_PROMPT, model=f'openai/local@{server.url}')
             begun_s = time.monotonic()
             try:
-                outcome = read_prompt(installed(), request, settings)
-                problem = '' if outcome.spec is None else 'a specification came of it'
-                if _SECRET in outcome.model_dump_json() and kind != '500':
+                problem, recorded = ask(request, settings)
+                if _SECRET in recorded and kind != '500':
                     problem = 'the answer has a key'
             except Exception as err:  # noqa: BLE001  (whatever it is, it is what is looked for)
                 problem = f'{type(err).__name__}: {err}'

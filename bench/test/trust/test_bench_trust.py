@@ -5,22 +5,36 @@
 from __future__ import annotations
 
 import json
+import subprocess
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from aurora_bench.machine import machine_facts
 from aurora_bench.trust import __main__ as campaign
-from aurora_bench.trust import documents, mavlink, model
+from aurora_bench.trust import (
+    clocks,
+    documents,
+    machinery,
+    mavlink,
+    model,
+    orders,
+    surroundings,
+)
 from aurora_bench.trust.counted import COUNTED
 from aurora_bench.trust.part import NEVER, NOTHING, Counter, Found, Part
 from aurora_bench.trust.table import PROMISES, Entry, write_table
+from aurora_core.outcomes.repair import Proposal, ProposalOutcome, RepairPlan, ValueEdit
+from aurora_core.spec.parameter import Provenance
 from aurora_uav_sim.mavlink_server import SimServer
 from aurora_uav_sim.pilot import Pilot
 from aurora_uav_sim.plan_items import Item, Refusal
 
 ROOT = Path(__file__).resolve().parents[3]
+# Campaigns that take hours: nothing is claimed for them before they were run whole.
+_NEW = ('deaths', 'guided')
 
 
 def entry(tried: int, held: int, **changes: Any) -> Entry:
@@ -61,8 +75,11 @@ def test_the_table_has_a_line_for_every_promise_and_says_what_did_not_hold(
 
 
 def test_what_other_benchmarks_left_is_counted_from_their_files() -> None:
-    for one in COUNTED:
-        found, when = one.found(ROOT / 'docs' / 'bench')
+    read = [(one, *one.found(ROOT / 'docs' / 'bench')) for one in COUNTED]
+    assert len([when for _, _, when in read if when]) >= 11
+    for one, found, when in read:
+        if one.bench in _NEW and not when:
+            continue
         assert found.tried >= 30, one.name
         assert found.held == found.tried, one.name
         assert 'version' in when
@@ -146,21 +163,108 @@ def test_damaged_documents_are_refused(tmp_path: Path, monkeypatch: pytest.Monke
 def test_orders_in_prompts_do_nothing_and_would_be_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    found = documents.injections(0, 2, tmp_path)
+    found = orders.injections(0, 2, tmp_path)
     assert found.held == 2, found.failures
 
     def obeys(prompt: str) -> tuple[int, str]:
         (tmp_path / 'written').write_text(prompt)
         return 3, '{"conditions": []}'
 
-    monkeypatch.setattr(documents, '_check', obeys)
-    found = documents.injections(0, 1, tmp_path)
+    monkeypatch.setattr(orders, '_check', obeys)
+    found = orders.injections(0, 1, tmp_path)
     assert 'open for writing' in found.failures[0]
 
 
 def test_hostile_servers_get_no_specification_through(tmp_path: Path) -> None:
     found = model.model_servers(4, 3, tmp_path)
     assert found.held == 3, found.failures
+
+
+def test_hostile_servers_move_nothing_in_repair(tmp_path: Path) -> None:
+    # As for a prompt: 500, then answers with the form of a revision.
+    found = model.revisions(4, 8, tmp_path)
+    assert found.held == 8, found.failures
+
+
+def test_a_revision_that_moves_what_is_not_open_would_be_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    edit = ValueEdit(
+        path='events/e1/trigger/value_m',
+        requested=20.0,
+        realised=90.0,
+        provenance=Provenance.DEFAULT,
+    )
+    plan = RepairPlan(values=(edit,))
+    wide = Proposal(outcome=ProposalOutcome.EXHAUSTED, plan=plan, reason='')
+    monkeypatch.setattr(orders, 'revise', lambda *_, **__: wide)
+    found = orders.repairs(0, 2, tmp_path)
+    assert found.held == 0
+    assert 'is moved, which is not open' in found.failures[0]
+
+
+@pytest.mark.parametrize('way', [orders.model_replies, orders.past_episodes, orders.repairs])
+def test_orders_do_nothing_whichever_way_they_come(way: Any, tmp_path: Path) -> None:
+    found = way(0, 12, tmp_path)
+    assert found.held == 12, found.failures
+
+
+def test_a_model_that_is_obeyed_would_be_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    specs = iter(range(100))
+    monkeypatch.setattr(orders, '_read', lambda *_: SimpleNamespace(spec=next(specs)))
+    found = orders.model_replies(0, 3, tmp_path)
+    assert found.held == 0
+    assert 'another request came of' in found.failures[0]
+
+
+def test_without_libfaketime_no_clock_is_said_to_have_been_moved(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('AURORA_FAKETIME', str(tmp_path / 'nowhere'))
+    assert clocks.moved(0, 1, tmp_path) == NOTHING
+    assert clocks.moved_in_the_graph(0, 1, tmp_path) == NOTHING
+
+
+@pytest.mark.parametrize(
+    ('code', 'said', 'problem'),
+    [
+        (0, b'{}', ''),
+        (4, b'{"hint": "raise ulimit -n"}', ''),
+        (4, b'it broke', 'what there is too little of is not said'),
+        (1, b'ulimit', 'exit code 1'),
+        (-11, b'aurora: execute', 'exit code -11'),
+    ],
+)
+def test_an_end_without_a_word_is_none(code: int, said: bytes, problem: str) -> None:
+    done = subprocess.CompletedProcess[bytes]((), code, said, b'')
+    assert surroundings.told_badly(done).startswith(problem)
+    assert bool(surroundings.told_badly(done)) is bool(problem)
+
+
+def test_a_duration_of_another_day_is_seen() -> None:
+    assert clocks.impossible_duration({'timing': {'parse': 0.1, 'execute': 5.0}}) == ''
+    assert clocks.impossible_duration({'timing': {'parse': -3600.0}}) == 'parse took -3600.0 s'
+
+
+def test_every_error_code_is_counted_and_a_part_that_no_test_provokes_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    every = machinery.codes()
+    assert {1, 100, 200, 421, 425, 510, 800} <= every
+    assert len(every) == next(p.wanted for p in campaign.PARTS if p.run is machinery.provoked)
+    (tmp_path / 'codes').mkdir()
+    (tmp_path / 'codes' / '1.json').write_text(json.dumps(sorted(every - {421})))
+    totals = {
+        'covered_lines': 96, 'num_statements': 100, 'covered_branches': 8, 'num_branches': 10,
+    }  # fmt: skip
+    (tmp_path / 'coverage.json').write_text(json.dumps({'totals': totals}))
+    monkeypatch.setattr(machinery, '_tested', lambda _: tmp_path)
+    assert machinery.provoked(0, 1, tmp_path).failures == ('no test provokes 421',)
+    covered = machinery.coverage(0, 1, tmp_path)
+    assert covered.figures == {'lines [%]': 96.0, 'branches [%]': 80.0}
+    assert (covered.tried, covered.held) == (2, 1)
 
 
 def test_the_largest_of_a_figure_is_kept() -> None:

@@ -34,6 +34,8 @@ start() {
     # Before it becomes the node: whoever ends us in between finds it all the same.
     write_pid "$2" "$BASHPID"
     take_seat "$2"
+    # Where SROS2 is on, each node has keys of its own.
+    [ "${ROS_SECURITY_ENABLE:-}" != true ] || export ROS_SECURITY_ENCLAVE_OVERRIDE="/aurora/$2"
     AURORA_READY_FILE="$run_dir/$2.ready" AURORA_SUPERVISION_DIR="$run_dir" \
       exec ros2 run "$1" "$2" < /dev/null > "$log_dir/$2.log" 2>&1 8>&- 9>&- {silence}>&-
   ) &

@@ -82,6 +82,9 @@ class LocalStages:
     ) -> ExecutionResult:
         """Run in lockstep and record."""
         # Imported here: `aurora check` and `aurora verify` need no simulator.
+        from aurora_sumo_bridge.room import check_room
+
+        check_room()
         from aurora_cli.local_run import run_lockstep
         from aurora_sumo_bridge.sumo_client import SumoClient
 

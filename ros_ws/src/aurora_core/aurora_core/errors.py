@@ -130,6 +130,11 @@ class ReportError(AuroraError):
 
 def hint_for(err: BaseException) -> str:
     """Return what to do about an exception that is none of ours: not all are defects."""
+    return hint_of_limits(err) or 'this is a defect of AURORA: please report it'
+
+
+def hint_of_limits(err: BaseException) -> str:
+    """Return what to do where the system has given too little of something, else ''."""
     number = err.errno if isinstance(err, OSError) else None
     told = str(err).lower()
     # A library that finds no room when it is loaded says so in an ImportError.
@@ -139,7 +144,7 @@ def hint_for(err: BaseException) -> str:
         return 'no more files may be open: raise ulimit -n'
     if number in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
         return 'free some room on the disk, or raise ulimit -f'
-    return 'this is a defect of AURORA: please report it'
+    return ''
 
 
 def error_class(code: int) -> type[AuroraError]:

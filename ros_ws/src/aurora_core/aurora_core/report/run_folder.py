@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from aurora_core.errors import ReportError
+from aurora_core.errors import ReportError, hint_of_limits
 from aurora_core.report.visible import visible_json
 
 MANIFEST = 'manifest.json'
@@ -246,5 +246,5 @@ def _sync_folder(path: Path) -> None:
 def _cannot_write(path: Path, err: OSError) -> ReportError:
     return ReportError(
         f'{path} cannot be written: {err.strerror or err}',
-        hint='free some room, or choose a folder that you may write with --out',
+        hint=hint_of_limits(err) or 'choose a folder that you may write with --out',
     )
