@@ -234,6 +234,30 @@ def waypoints(xy: FloatArray, count: int) -> Judged:
     return cannot_tell(f'{found} turning points; {count} waypoints may lie in line')
 
 
+def middles(xy: FloatArray, count: int | None) -> tuple[list[FloatArray], list[FloatArray]]:
+    """Return the middles (m) that a route of points may have: the likely ones, and all others.
+
+    The middle of points is that of their box (map axes), or their mean. Before the first point
+    there is a way, after the last there may be one; without a count one leg leads there.
+
+    Args:
+        xy: The path.
+        count: How many points are asked; None for any.
+    """
+    points = xy[corners(xy)]
+    fewest = 2 if count is None else count
+    likely: list[FloatArray] = []
+    others: list[FloatArray] = []
+    for first, last in itertools.product(range(len(points)), range(SPARE_CORNERS)):
+        part = points[first : len(points) - last]
+        if len(part) < min(fewest, len(points)):
+            continue
+        is_it = len(part) == count if count is not None else first == 1
+        found = [(part.min(axis=0) + part.max(axis=0)) / 2.0, part.mean(axis=0)]
+        (likely if is_it and not last else others).extend(found)
+    return likely, others
+
+
 def street(xy: FloatArray, places: Places, name: str) -> Judged:
     """Return whether a path leads along a street."""
     lanes = [c for c in places.world.lanes if c.street.casefold() == name.casefold()]
