@@ -27,6 +27,8 @@ DOUBT_M = 3.0
 CORNER_M = 2.0
 # A flight to the first waypoint and one back from the last may hang on a pattern.
 SPARE_CORNERS = 3
+# Points of a route where no number is stated.
+USUAL_POINTS = 4
 # So much of a circle may be flown on the way to its first point.
 ORBIT_DOUBT_DEG = 60.0
 
@@ -238,7 +240,8 @@ def middles(xy: FloatArray, count: int | None) -> tuple[list[FloatArray], list[F
     """Return the middles (m) that a route of points may have: the likely ones, and all others.
 
     The middle of points is that of their box (map axes), or their mean. Before the first point
-    there is a way, after the last there may be one; without a count one leg leads there.
+    there is a way, after the last there may be one; without a count one leg leads there, or it
+    is the usual number.
 
     Args:
         xy: The path.
@@ -252,7 +255,7 @@ def middles(xy: FloatArray, count: int | None) -> tuple[list[FloatArray], list[F
         part = points[first : len(points) - last]
         if len(part) < min(fewest, len(points)):
             continue
-        is_it = len(part) == count if count is not None else first == 1
+        is_it = len(part) == (count or USUAL_POINTS) or (count is None and first == 1)
         found = [(part.min(axis=0) + part.max(axis=0)) / 2.0, part.mean(axis=0)]
         (likely if is_it and not last else others).extend(found)
     return likely, others
