@@ -258,6 +258,12 @@ def middles(xy: FloatArray, count: int | None) -> tuple[list[FloatArray], list[F
         is_it = len(part) == (count or USUAL_POINTS) or (count is None and first == 1)
         found = [(part.min(axis=0) + part.max(axis=0)) / 2.0, part.mean(axis=0)]
         (likely if is_it and not last else others).extend(found)
+    if len(points) > 1 and (count is None or len(points) <= count):
+        # The first point may lie in line with the way there.
+        way = points[1] - points[0]
+        for share in np.linspace(0.0, 1.0, max(2, round(float(np.linalg.norm(way))))):
+            part = np.vstack([points[0] + share * way, points[1:]])
+            others.append((part.min(axis=0) + part.max(axis=0)) / 2.0)
     return likely, others
 
 

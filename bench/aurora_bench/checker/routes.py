@@ -137,8 +137,15 @@ def _points(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> J
         # A flight of no stated form may as well be one around it.
         about = [reached] if number == 1 or not flight.targets else [reached, _about(flight, xy)]
         return any_of(about)
-    parts = [flights.waypoints(xy, number or 2)]
-    return all_of([*parts, _about(flight, xy, number)] if flight.targets else parts)
+    reached = flights.waypoints(xy, number or 2)
+    if not flight.targets:
+        return reached
+    about = _about(flight, xy, number)
+    # So many points around it, the first of which may be where the flight begins.
+    regions = any(map(flight.scene.places.is_region, flight.targets))
+    if number is not None and about.outcome is Outcome.HOLDS and not regions:
+        return about
+    return all_of([reached, about])
 
 
 def _about(flight: Flight, xy: FloatArray, count: int | None = None) -> Judged:
@@ -155,19 +162,9 @@ def _about(flight: Flight, xy: FloatArray, count: int | None = None) -> Judged:
             readings.append(any_of(judged))
         elif any(_middle(flight, target, m).outcome is Outcome.HOLDS for m in others):
             readings.append(cannot_tell(f'which points are those around {target} does not show'))
-        elif len(flights.corners(xy)) <= (count or 2) and _lies_in(flight, target, xy):
-            readings.append(cannot_tell(f'points in line may be around {target}'))
         else:
             readings.append(any_of(judged) if judged else does_not(f'not around {target}'))
     return any_of(readings)
-
-
-def _lies_in(flight: Flight, target: str, xy: FloatArray) -> bool:
-    """Tell whether a target lies in the box (map axes) of a path."""
-    scene = flight.scene
-    spots = [scene.xy(target)[0]] if scene.is_body(target) else _centres(scene.places, target)
-    low, high = xy.min(axis=0) - limits.CENTRED_M, xy.max(axis=0) + limits.CENTRED_M
-    return any(bool(((low <= spot) & (spot <= high)).all()) for spot in spots)
 
 
 def _middle(flight: Flight, target: str, middle: FloatArray) -> Judged:
