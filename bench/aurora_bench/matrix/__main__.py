@@ -104,7 +104,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             tables=tables,
             notes=(
                 'A number is the least normalised margin of a verified run that the independent '
-                'checker does not contradict, with its condition; exact counts, what is so or not, '
+                'checker does not contradict, with its condition; exact counts, what is so or not '
                 'and that one phase follows on another have none of their own. Cells of one '
                 'word are empty for the reason given.',
                 f'`{_placed(judged)}`',
