@@ -287,6 +287,7 @@ class RunDriver:
         self._call(on.GROUND_LOAD, ground, limit_s)
         run.accounts[GROUND] = Account(ground)
         if run.has_uavs:
+            listeners += self._hears('sumo_bridge', on.UAV_STATE)
             air = uav_request(execution.air_load, listeners=listeners, **common)
             self._call(on.UAV_LOAD, air, limit_s)
             run.accounts[AIR] = Account(air)
@@ -422,6 +423,11 @@ class RunDriver:
             return next(map(second_one, named(self._strangers)), None)
         except (InvalidHandle, rclpy_implementation.RCLError):
             return None  # the node is being shut down under us
+
+    def _hears(self, node: str, topic: on.Topic) -> bool:
+        """Tell whether a node that need not does listen to a topic."""
+        listeners = self._node.get_subscriptions_info_by_topic(topic.full_name)
+        return node in {info.node_name for info in listeners}
 
     def _call(self, call: on.Call, request: object, limit_s: float | None = None) -> Any:
         return self._caller.service(call, request, limit_s or self._settings.call_limit_s)

@@ -27,6 +27,8 @@ DOUBT_M = 3.0
 CORNER_M = 2.0
 # A flight to the first waypoint and one back from the last may hang on a pattern.
 SPARE_CORNERS = 3
+# Points of a route where no number is stated.
+USUAL_POINTS = 4
 # So much of a circle may be flown on the way to its first point.
 ORBIT_DOUBT_DEG = 60.0
 
@@ -232,6 +234,37 @@ def waypoints(xy: FloatArray, count: int) -> Judged:
     if found < 1:
         return does_not('the UAV flies nowhere')
     return cannot_tell(f'{found} turning points; {count} waypoints may lie in line')
+
+
+def middles(xy: FloatArray, count: int | None) -> tuple[list[FloatArray], list[FloatArray]]:
+    """Return the middles (m) that a route of points may have: the likely ones, and all others.
+
+    The middle of points is that of their box (map axes), or their mean. Before the first point
+    there is a way, after the last there may be one; without a count one leg leads there, or it
+    is the usual number.
+
+    Args:
+        xy: The path.
+        count: How many points are asked; None for any.
+    """
+    points = xy[corners(xy)]
+    fewest = 2 if count is None else count
+    likely: list[FloatArray] = []
+    others: list[FloatArray] = []
+    for first, last in itertools.product(range(len(points)), range(SPARE_CORNERS)):
+        part = points[first : len(points) - last]
+        if len(part) < min(fewest, len(points)):
+            continue
+        is_it = len(part) == (count or USUAL_POINTS) or (count is None and first == 1)
+        found = [(part.min(axis=0) + part.max(axis=0)) / 2.0, part.mean(axis=0)]
+        (likely if is_it and not last else others).extend(found)
+    if len(points) > 1 and (count is None or len(points) <= count):
+        # The first point may lie in line with the way there.
+        way = points[1] - points[0]
+        for share in np.linspace(0.0, 1.0, max(2, round(float(np.linalg.norm(way))))):
+            part = np.vstack([points[0] + share * way, points[1:]])
+            others.append((part.min(axis=0) + part.max(axis=0)) / 2.0)
+    return likely, others
 
 
 def street(xy: FloatArray, places: Places, name: str) -> Judged:

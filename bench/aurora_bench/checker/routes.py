@@ -110,8 +110,7 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
         case 'street':
             return any_of([flights.street(xy, places, t) for t in flight.targets])
         case 'waypoints' | None:
-            count = requirement.get('waypoint_count')
-            judged = flights.waypoints(xy, int(count)) if count else _goes_there(flight, xy)
+            return _points(flight, requirement, xy)
         case _:
             flown = len(flights.corners(xy))
             if flown < (2 if pattern == 'line' else 3):
@@ -128,6 +127,51 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
         elif centre is not None:
             parts.append(flights.centred(centre, places, target))
     return all_of(parts)
+
+
+def _points(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> Judged:
+    """Return whether a route of points has so many, around its target; a single one is there."""
+    pattern, count = requirement.get('pattern'), requirement.get('waypoint_count')
+    number = None if count is None else int(count)
+    if number == 1 or (number is None and pattern is None):
+        reached = _goes_there(flight, xy)
+        # A flight of no stated form may as well be one around it.
+        about = [reached] if number == 1 or not flight.targets else [reached, _about(flight, xy)]
+        return any_of(about)
+    reached = flights.waypoints(xy, number or 2)
+    if not flight.targets:
+        return reached
+    about = _about(flight, xy, number)
+    # So many points around it, the first of which may be where the flight begins.
+    regions = any(map(flight.scene.places.is_region, flight.targets))
+    if number is not None and about.outcome is Outcome.HOLDS and not regions:
+        return about
+    return all_of([reached, about])
+
+
+def _about(flight: Flight, xy: FloatArray, count: int | None = None) -> Judged:
+    """Return whether a route of points has its middle at a target."""
+    scene, places = flight.scene, flight.scene.places
+    likely, others = flights.middles(xy, count)
+    readings = []
+    for target in flight.targets:
+        if places.is_region(target) and not scene.is_body(target):
+            readings.append(flights.over_road(xy, places))
+            continue
+        judged = [_middle(flight, target, middle) for middle in likely]
+        if any(j.outcome is Outcome.HOLDS for j in judged):
+            readings.append(any_of(judged))
+        elif any(_middle(flight, target, m).outcome is Outcome.HOLDS for m in others):
+            readings.append(cannot_tell(f'which points are those around {target} does not show'))
+        else:
+            readings.append(any_of(judged) if judged else does_not(f'not around {target}'))
+    return any_of(readings)
+
+
+def _middle(flight: Flight, target: str, middle: FloatArray) -> Judged:
+    if flight.scene.is_body(target):
+        return _over_body(flight, target, middle)
+    return flights.centred(middle, flight.scene.places, target)
 
 
 def _centres(places: Any, name: str) -> Sequence[Any]:

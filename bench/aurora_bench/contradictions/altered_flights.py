@@ -143,6 +143,14 @@ FLIGHTS: tuple[Altered, ...] = (
         'm1.waypoints',
     ),
     _flight(
+        'flight elsewhere',
+        'points 40 m beside what they are around',
+        'points',
+        'r4',
+        _of('m1', motion.elsewhere, 40.0, 0.0),
+        'm1.waypoints',
+    ),
+    _flight(
         'drift',
         'drifts 8 m while it hovers',
         'hover',

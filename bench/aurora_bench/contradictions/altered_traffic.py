@@ -210,6 +210,14 @@ TRAFFIC: tuple[Altered, ...] = (
     ),
     _traffic(
         'placed elsewhere',
+        'stands 30 m off the middle of the points around it',
+        'points',
+        'r4',
+        lambda base: motion.shifted_agent(base, 'van1', 30.0),
+        'm1.centre',
+    ),
+    _traffic(
+        'placed elsewhere',
         'van 12 m nearer at t = 0',
         'tailgate',
         'r5',

@@ -90,6 +90,17 @@ REQUESTS: Mapping[str, Annotated] = {
             speed_mps=10,
         ),
     ),
+    'points': _annotated(
+        'points',
+        'patrol',
+        'A drone visits three waypoints around a parked van at 40 m.',
+        _UAV,
+        _body('van1', 'van'),
+        {'kind': 'behavior', 'agent': 'van1', 'behavior': 'park'},
+        _mission(
+            'm1', 'navigate', target='van1', altitude_m=40, pattern='waypoints', waypoint_count=3
+        ),
+    ),
     'tailgate': _annotated(
         'tailgate',
         'communication',

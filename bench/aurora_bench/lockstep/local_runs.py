@@ -99,6 +99,9 @@ class _Ground:
         watch.spend(SUMO)
         return rows
 
+    def show_uavs(self, rows: FloatArray) -> None:
+        self._inner.show_uavs(rows)
+
     def close(self) -> None:
         self._watch.stop()
         self._inner.close()

@@ -104,7 +104,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             tables=tables,
             notes=(
                 'A number is the least normalised margin of a verified run that the independent '
-                'checker does not contradict. Cells of one word are empty for the reason given.',
+                'checker does not contradict, with its condition; exact counts, what is so or not '
+                'and that one phase follows on another have none of their own. Cells of one '
+                'word are empty for the reason given.',
                 f'`{_placed(judged)}`',
             ),
             machine=machine,
@@ -154,9 +156,9 @@ def _trial(map_name: str, cell: Cell) -> Trial:
 
 
 def shown(result: JudgedTrial) -> str:
-    """Return what a cell shows: the least margin, or what did not hold."""
+    """Return what a cell shows: the least margin and whose it is, or what did not hold."""
     if result.right:
-        return 'yes' if result.margin is None else f'{result.margin:.2g}'
+        return 'yes' if result.margin is None else f'{result.margin:.2g} ({result.margin_of})'
     cause = '' if result.cause is None else result.cause.value
     return f'{cause}: {", ".join(result.words)}' if result.words else cause
 

@@ -19,6 +19,7 @@ from aurora_bench.prompts.reference_names import NotExpressibleError
 from aurora_bench.prompts.reference_spec import reference_spec
 from aurora_bench.rulers.causes import Found, cause_of, reasons
 from aurora_bench.rulers.checking import Check, Said, asked_of, independent_checker
+from aurora_bench.rulers.margins import least_margin
 from aurora_bench.rulers.readback import ReadBack, read_back
 from aurora_bench.rulers.trial import Cause, JudgedTrial, Trial, judged
 from aurora_bench.rulers.watched import WatchedStages
@@ -115,6 +116,7 @@ class RunWork(ABC):
             said, found = self._checked(trial, ran)
         else:
             found = cause_of(report, ran.stages.grounding)
+        margin, margin_of = least_margin(report.conditions, _derived(ran))
         return judged(
             trial,
             status=report.status.value,
@@ -122,7 +124,8 @@ class RunWork(ABC):
             words=found[1] if found is not None else (),
             summary=report.summary,
             said=said,
-            margin=report.metrics.worst_normalised,
+            margin=margin,
+            margin_of=margin_of,
             placed=_placed(ran),
             trace_sha256=report.trace.sha256 if report.trace is not None else '',
             motion_sha256=report.trace.motion_sha256 if report.trace is not None else '',
@@ -229,6 +232,13 @@ class OutcomeWork(RunWork):
             words=found[1] if found is not None else (),
             summary=ran.report.summary,
         )
+
+
+def _derived(ran: Ran) -> str:
+    """Return the conditions of a run as JSON text."""
+    grounding = ran.stages.grounding
+    grounded = None if grounding is None else grounding.agsg
+    return grounded.texts.conditions or '[]' if grounded is not None else '[]'
 
 
 def _placed(ran: Ran) -> ReadBack | None:

@@ -88,7 +88,8 @@ class JudgedTrial(Document):
         words: What exactly, in words that are the same for many prompts.
         summary: What the run's report says.
         said: The checker's answers; () for a run that is not verified.
-        margin: Least normalised one, None where there is none.
+        margin: Least normalised one, see `margins`; None where there is none.
+        margin_of: Condition that has it.
         placed: Where bodies stood at t = 0, None where nothing was recorded.
         trace_sha256: '' without a trace.
         motion_sha256: '' without a trace.
@@ -109,6 +110,7 @@ class JudgedTrial(Document):
     summary: str = ''
     said: tuple[Said, ...] = ()
     margin: FiniteFloat | None = None
+    margin_of: str = ''
     placed: ReadBack | None = None
     trace_sha256: str = ''
     motion_sha256: str = ''

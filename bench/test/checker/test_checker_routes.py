@@ -200,6 +200,37 @@ def test_waypoints_in_line_cannot_be_told(stage: Any) -> None:
     assert stage.says({**asked, 'waypoint_count': 5}) == 'cannot_tell'
 
 
+@pytest.mark.parametrize(
+    ('aside', 'count', 'outcome'),
+    [
+        (0.0, 3, 'holds'),
+        (8.0, 3, 'holds'),
+        (30.0, 3, 'does_not'),
+        (0.0, None, 'holds'),
+        (30.0, None, 'does_not'),
+    ],
+)
+@pytest.mark.parametrize('target', ['City Hall', 'van'])
+def test_a_route_of_points_lies_around_its_target(
+    stage: Any, target: str, aside: float, count: int | None, outcome: str
+) -> None:
+    """It need not come near: around is not over."""
+    stage.ground('van', 'van', 210.0, 30.0)
+    x, y = 210.0 - aside, 30.0
+    points = [(x + 50.0 * np.cos(a), y + 50.0 * np.sin(a)) for a in np.radians([0, 120, 240])]
+    flies(stage, [(x + 50.0, -90.0), *points])
+    asked = {**RECTANGLE, 'pattern': 'waypoints', 'target': target}
+    assert stage.says(asked if count is None else {**asked, 'waypoint_count': count}) == outcome
+
+
+def test_a_single_point_is_at_its_target(make_stage: Any) -> None:
+    for x, outcome in ((205.0, 'holds'), (150.0, 'does_not')):
+        stage = make_stage()
+        flies(stage, [(100.0, -50.0), (x, 30.0)])
+        asked = {**RECTANGLE, 'pattern': 'waypoints', 'waypoint_count': 1, 'target': 'City Hall'}
+        assert stage.says(asked) == outcome
+
+
 def test_a_climb_leaves_a_route_its_course(stage: Any) -> None:
     corners = [(0.0, 0.0), (80.0, 0.0), (80.0, 40.0), (0.0, 40.0), (0.0, 0.0)]
     course = fly_route(corners, 50.0, 8.0, 12.0)

@@ -94,6 +94,24 @@ def test_an_altered_recording_is_found_by_both(campaign: Campaign) -> None:
     assert not campaign.judge(other, campaign.altered_bag(case)).by_condition
 
 
+@pytest.mark.parametrize(
+    'name',
+    [
+        'points 40 m beside what they are around',
+        'stands 30 m off the middle of the points around it',
+    ],
+)
+def test_points_around_a_body_have_it_in_their_middle(campaign: Campaign, name: str) -> None:
+    """Both say so, of the honest run as of one in which the route or the body is elsewhere."""
+    case = _named(ALTERED, name)
+    assert isinstance(case, Altered)
+    found = campaign.judge(case, campaign.altered_bag(case))
+    assert found.outcome == 'does_not'
+    assert found.by_condition
+    honest = campaign.judge(case, campaign.honest(case.request).bag)
+    assert (honest.outcome, honest.status) == ('holds', 'verified')
+
+
 def test_the_same_speeds_give_the_same_way(campaign: Campaign) -> None:
     """Else a condition might fail for what the campaign did wrong."""
     base = campaign.honest('slow and stop')

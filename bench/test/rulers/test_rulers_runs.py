@@ -53,7 +53,8 @@ def verified(monkeypatch: pytest.MonkeyPatch) -> None:
             summary='',
             trace=trace,
             timing=timing,
-            metrics=SimpleNamespace(iterations=1, worst_normalised=None),
+            metrics=SimpleNamespace(iterations=1),
+            conditions=(),
         )
 
     monkeypatch.setattr(runs, 'run', run)

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from aurora_core.ports.simulators import FloatArray
-from aurora_core.trace.messages import read_ground_commands
-from aurora_msgs.msg import GroundCommand
+from aurora_core.trace.layout import UAV_WIDTH
+from aurora_core.trace.messages import read_ground_commands, read_rows
+from aurora_msgs.msg import GroundCommand, UavState
 from aurora_msgs.srv import LoadGround
 from aurora_ros import interfaces as on
 from aurora_ros.bridge import BridgeInterfaces, LockstepBridge
@@ -24,6 +25,7 @@ class SumoBridgeSettings:
     """See `config/sumo_bridge.param.yaml`."""
 
     autostart: bool
+    shows_uavs: bool
 
 
 class SumoBridgeNode(LockstepBridge):
@@ -39,11 +41,24 @@ class SumoBridgeNode(LockstepBridge):
                 state=on.GROUND_STATE,
             ),
         )
-        self.wants_autostart = declare(self, 'sumo_bridge', SumoBridgeSettings).autostart
+        settings = declare(self, 'sumo_bridge', SumoBridgeSettings)
+        self.wants_autostart = settings.autostart
+        self._shows_uavs = settings.shows_uavs
 
     @cached_property
     def _client(self) -> SumoClient:
         return SumoClient()
+
+    def configure(self) -> None:
+        """Create the endpoints, one more where UAVs are to be shown."""
+        super().configure()
+        if self._shows_uavs:
+            self.subscription(on.UAV_STATE, self._on_uav_state)
+
+    def _on_uav_state(self, message: UavState) -> None:
+        """Show where the UAVs are; no tick waits for it, and a damaged state ends no run here."""
+        if self.is_in_run(message.run_number) and len(message.data) % UAV_WIDTH == 0:
+            self._client.show_uavs(read_rows(message, UAV_WIDTH))
 
     def open_run(self, request: LoadGround.Request) -> None:
         """Load map and agents."""

@@ -19,6 +19,7 @@ from aurora_sumo_bridge.checks import check_command
 from aurora_sumo_bridge.commands import apply_command
 from aurora_sumo_bridge.network import Network
 from aurora_sumo_bridge.placement import Body, check_places, place_all
+from aurora_sumo_bridge.proxies import UavProxies
 from aurora_sumo_bridge.state_reader import StateReader
 from aurora_sumo_bridge.street_watch import StreetWatch
 from aurora_sumo_bridge.sumo_process import SumoProcess
@@ -46,6 +47,7 @@ class _Run:
             ),
             (b.walker.free for b in self.bodies if b.walker is not None and b.walker.free),
         )
+        self.proxies = UavProxies()
         self.reader = StateReader(self.bodies, load.dt_s)
         self.tick = 0
         self.state = self.reader.read_spawned()
@@ -143,6 +145,17 @@ class SumoClient:
             raise
         run.tick = tick
         return run.state.copy()
+
+    def show_uavs(self, rows: FloatArray) -> None:
+        """Let each UAV stand in the ground world, where SUMO shows it and traffic ignores it.
+
+        Args:
+            rows: Packed states (M, UAV_WIDTH), roster order.
+
+        Raises:
+            GroundSimulatorError: Nothing is loaded.
+        """
+        self._loaded().proxies.show(rows)
 
     def collisions(self) -> tuple[tuple[str, str], ...]:
         """Return the pairs (collider, victim) that SUMO lists in this tick.

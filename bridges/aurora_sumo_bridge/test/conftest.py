@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+import importlib.util
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -18,6 +20,17 @@ from aurora_sumo_bridge.sumo_client import SumoClient
 MAPS = Path(__file__).resolve().parents[3] / 'config' / 'maps'
 
 DT_S = 0.05
+SCRIPT = Path(__file__).with_name('replay_digest.py')
+
+
+@pytest.fixture(scope='module')
+def replay() -> ModuleType:
+    spec = importlib.util.spec_from_file_location('replay_digest', SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 @pytest.fixture

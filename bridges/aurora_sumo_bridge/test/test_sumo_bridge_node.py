@@ -8,8 +8,10 @@ import json
 from array import array
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+import libsumo
 import numpy as np
 import pytest
 
@@ -17,17 +19,26 @@ pytest.importorskip('rclpy')
 
 from aurora_core.errors import ExecutionError, GroundSimulatorError, MapError
 from aurora_core.knowledge.map_model import load_map
-from aurora_core.trace.layout import GROUND_WIDTH, GroundColumn, GroundCommandKind
+from aurora_core.trace.layout import (
+    GROUND_WIDTH,
+    UAV_WIDTH,
+    GroundColumn,
+    GroundCommandKind,
+)
 from aurora_core.trace.messages import read_rows
-from aurora_msgs.msg import GroundCommand, Tick
+from aurora_msgs.msg import GroundCommand, Tick, UavState
 from aurora_msgs.srv import LoadGround
 from aurora_ros import interfaces as on
 from aurora_ros.account import Account, told
+from aurora_ros.conversions.loads import ground_load
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess, nodes
+from aurora_sumo_bridge.node import SumoBridgeNode
+from aurora_sumo_bridge.proxies import proxy_id
+from aurora_sumo_bridge.sumo_client import SumoClient
 
 pytestmark = pytest.mark.ros
 
@@ -49,6 +60,19 @@ def agents_json(**changes: Any) -> str:
     return json.dumps([agent])
 
 
+FIELDS: dict[str, Any] = {
+    'run_id': 'r',
+    'run_number': 1,
+    'map_name': MAP.name,
+    'map_digest': MAP.digest,
+    'seed': 1,
+    'dt_s': 0.05,
+    'horizon_s': 60.0,
+    'weather': 'clear',
+    'agents_json': agents_json(),
+}
+
+
 class Graph:
     def __init__(self, process: NodeProcess, play: Partner) -> None:
         self.process = process
@@ -59,18 +83,7 @@ class Graph:
         self.command = play.publisher(on.GROUND_COMMAND)
 
     def load(self, run_number: int = 1, **changes: Any) -> LoadGround.Request:
-        fields = {
-            'run_id': 'r',
-            'run_number': run_number,
-            'map_name': MAP.name,
-            'map_digest': MAP.digest,
-            'seed': 1,
-            'dt_s': 0.05,
-            'horizon_s': 60.0,
-            'weather': 'clear',
-            'agents_json': agents_json(),
-            **changes,
-        }
+        fields = {**FIELDS, 'run_number': run_number, **changes}
         self.play.call(on.GROUND_LOAD, **fields)
         return LoadGround.Request(**fields)
 
@@ -86,9 +99,14 @@ class Graph:
 
 
 @pytest.fixture
-def graph(tmp_path: Path) -> Iterator[Graph]:
+def parameters() -> list[str]:
+    return []
+
+
+@pytest.fixture
+def graph(tmp_path: Path, parameters: list[str]) -> Iterator[Graph]:
     with own_domain() as domain, partner(domain) as play:
-        process = ForkedNode('aurora_sumo_bridge.node', domain, tmp_path)
+        process = ForkedNode('aurora_sumo_bridge.node', domain, tmp_path, parameters)
         with nodes(process):
             yield Graph(process, play)
             assert process.end() == 0
@@ -141,6 +159,27 @@ def test_a_second_load_starts_again_at_tick_zero_with_the_same_states(graph: Gra
             graph.await_states(first + tick + 1)
     assert graph.states[19].data == graph.states[39].data
     assert graph.states[19].data != graph.states[18].data
+
+
+@pytest.mark.parametrize('parameters', [['--ros-args', '-p', 'shows_uavs:=true']])
+def test_where_uavs_are_delays_no_tick_and_changes_none(graph: Graph) -> None:
+    flown = graph.play.publisher(on.UAV_STATE)
+    assert wait_until(lambda: flown.get_subscription_count() == 1, 5.0)
+    for run_number in (1, 2):
+        graph.load(run_number=run_number)
+        first = len(graph.states)
+        for tick in range(20):
+            if run_number == 2:
+                rows = np.zeros((2, UAV_WIDTH))
+                rows[:, :2] = graph.states[tick].data[:2]
+                # Of another run, damaged, and of this one: each tick but every fifth.
+                late = array('d', rows.tobytes()) if tick % 5 else array('d', [1.0])
+                flown.publish(UavState(run_number=1 + (tick % 3 > 0), tick=tick, data=late))
+            graph.send_command(tick, run_number=run_number)
+            graph.send_tick(tick, run_number=run_number)
+            graph.await_states(first + tick + 1)
+    assert [s.data for s in graph.states[:20]] == [s.data for s in graph.states[20:]]
+    assert not graph.faults
 
 
 def test_a_command_that_sumo_refuses_becomes_a_fault_with_the_name(graph: Graph) -> None:
@@ -232,3 +271,19 @@ def test_a_load_that_cannot_be_is_refused_with_code_and_reason(graph: Graph) -> 
         graph.load(agents_json=agents_json(lane_position_m=1e6))
     assert caught.value.component == 'sumo_bridge'
     graph.load()
+
+
+def test_a_state_of_uavs_is_shown_in_its_run_alone() -> None:
+    """The client is the one of the local engine; its own tests look into SUMO."""
+    client = SumoClient()
+    client.load(ground_load(LoadGround.Request(**{**FIELDS, 'run_number': 3})))
+    node = SimpleNamespace(_client=client, is_in_run=lambda run_number: run_number == 3)
+    rows = np.zeros((2, UAV_WIDTH))
+    rows[:, :2] = (-12.0, 7.5), (30.0, -4.0)
+    for run_number, shown in ((2, 0), (3, 2)):
+        state = UavState(run_number=run_number, data=array('d', rows.tobytes()))
+        SumoBridgeNode._on_uav_state(node, state)  # type: ignore[arg-type]
+        assert libsumo.poi.getIDCount() == shown
+    places = [libsumo.poi.getPosition(proxy_id(row)) for row in range(2)]
+    assert places == [pytest.approx(row) for row in rows[:, :2].tolist()]
+    client.close()

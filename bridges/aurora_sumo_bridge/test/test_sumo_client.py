@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import subprocess
 import sys
@@ -21,16 +20,6 @@ from aurora_sumo_bridge.sumo_client import SumoClient
 
 SCRIPT = Path(__file__).with_name('replay_digest.py')
 MAPS = Path(__file__).resolve().parents[3] / 'config' / 'maps'
-
-
-@pytest.fixture(scope='module')
-def replay() -> ModuleType:
-    spec = importlib.util.spec_from_file_location('replay_digest', SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def test_identical_bits_after_resets_other_runs_failures_and_in_a_fresh_process(

@@ -118,9 +118,10 @@ def run_lockstep(
         if has_uavs:
             air.load(execution.air_load)
             _note(writer, clocks)
-        uav_rows = air.state() if has_uavs else ground_rows[:0, :0]
+        uav_rows = air.state() if has_uavs else np.zeros((0, UAV_WIDTH))
         tick = 0
         while True:
+            ground.show_uavs(uav_rows)
             output = execution.stepper.step(tick, ground_rows, uav_rows)
             collected.add(ground_rows, uav_rows, output)
             recorder.add(tick, ground_rows, uav_rows, output)

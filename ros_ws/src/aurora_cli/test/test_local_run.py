@@ -7,6 +7,8 @@ from __future__ import annotations
 import gc
 from pathlib import Path
 
+import libsumo
+import numpy as np
 import pytest
 
 from aurora_cli.installed import installed
@@ -15,12 +17,15 @@ from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import ExecutionError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import CheckStage
-from aurora_core.pipeline.stages import RunControl, RunRequest
+from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
 from aurora_core.spec.scenario import StatedCondition
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.hashing import trace_sha256
+from aurora_core.trace.layout import UavColumn
 from aurora_core.trace.trace import Integrity
+from aurora_sumo_bridge.proxies import proxy_id
+from aurora_sumo_bridge.sumo_client import SumoClient
 
 PROMPT = (
     'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the ego '
@@ -60,6 +65,33 @@ def test_the_hash_is_that_of_the_bag(
     assert result.trace_sha256 == trace_sha256(content.trace, content.world)
     assert (result.outcome == 'cancelled') is (stop_after_s < 1000.0)
     assert gc.isenabled()
+
+
+def test_uavs_stand_in_the_ground_world_and_no_hash_depends_on_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    request = RunRequest(prompt=PROMPT)
+    agsg = grounded(request)
+    simulated_s, stood = [0.0], []
+
+    def progress(_stage: str, _share: float, now_s: float) -> None:
+        simulated_s[0] = now_s
+        if libsumo.poi.getIDCount():
+            stood.append(libsumo.poi.getPosition(proxy_id(0)))
+
+    def executed(name: str) -> ExecutionResult:
+        control = RunControl(progress=progress, cancelled=lambda: simulated_s[0] >= 20.0)
+        return LocalStages(installed()).execute(agsg, tmp_path / name / 'bag.0', request, control)
+
+    shown = executed('shown')
+    flown = read_bag(shown.bag, message_definitions()).trace.uav[:, 0, : UavColumn.Y + 1]
+    assert np.ptp(flown, axis=0).max() > 20.0
+    assert np.abs(np.array(stood) - flown).max() < 0.01
+    stood.clear()
+    monkeypatch.setattr(SumoClient, 'show_uavs', lambda _self, _rows: None)
+    bare = executed('bare')
+    assert not stood
+    assert (shown.trace_sha256, shown.motion_sha256) == (bare.trace_sha256, bare.motion_sha256)
 
 
 @pytest.mark.parametrize('without', [(), (CheckStage.STATIC,), (CheckStage.PROOFS,)])

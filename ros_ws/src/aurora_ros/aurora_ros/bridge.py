@@ -81,6 +81,10 @@ class LockstepBridge(ManagedNode):
     def close_run(self) -> None:
         """Leave the simulator after a run; the next one loads it again."""
 
+    def is_in_run(self, run_number: int) -> bool:
+        """Tell whether it is loaded for this run, which goes on."""
+        return run_number == self._input.run_number
+
     @property
     def awaited(self) -> Subscription | None:
         """The next command, or the clock's leave for it once the window is used up."""

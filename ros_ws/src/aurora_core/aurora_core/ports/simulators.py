@@ -133,6 +133,9 @@ class GroundSimulator(Protocol):
     def advance(self, tick: int, commands: tuple[GroundCommand, ...]) -> FloatArray:
         """Apply the commands stamped `tick`, advance to tick * dt, return the packed state."""
 
+    def show_uavs(self, rows: FloatArray) -> None:
+        """Show UAVs, packed states (M, UAV_WIDTH): no state of the ground depends on it."""
+
     def close(self) -> None:
         """Free the simulation; safe to call twice."""
 
