@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from aurora_bench.sandbox.requests import Link, SceneRefusal
 from aurora_core.comm.link import LinkSettings, MessageLink, Path, link_stream
+from aurora_core.comm.reach import Reach
 from aurora_core.execution.scenario_executor import GONE_M
 from aurora_core.geometry.sight_line import SightLine
 from aurora_core.knowledge.limits import Limits
@@ -55,8 +56,7 @@ class Radio:
                     latency_s=link.latency_s,
                     retransmissions=link.retransmissions,
                     interval_s=_INTERVAL_S,
-                    range_sight_m=_or(link.range_m, limits.link_range_sight_m),
-                    range_blocked_m=_or(link.range_m, limits.link_range_blocked_m),
+                    reach=_reach(link, limits),
                 ),
                 roster.dt_s,
                 link_stream(seed, f'link{k + 1}'),
@@ -118,5 +118,12 @@ class Radio:
         return Path(distance_m=instant.distance_m(ends[0], ends[1]), line_of_sight=sight)
 
 
-def _or(stated: float | None, usual: float) -> float:
-    return usual if stated is None else stated
+def _reach(link: Link, limits: Limits) -> Reach:
+    """Return the reach of a link: as in a run, what it states replaces the fading."""
+    if link.range_m is not None:
+        return Reach(sight_m=link.range_m, blocked_m=link.range_m)
+    return Reach(
+        sight_m=limits.link_range_sight_m,
+        blocked_m=limits.link_range_blocked_m,
+        decade_db=limits.link_decade_db if link.loss == 0.0 else 0.0,
+    )

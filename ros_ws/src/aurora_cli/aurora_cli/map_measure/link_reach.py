@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from aurora_core.comm.link import LinkSettings, MessageLink, Path, link_stream
+from aurora_core.comm.reach import Reach
 from aurora_core.geometry.prism import Prism
 from aurora_core.geometry.sight import SightModel
 from aurora_core.geometry.sight_line import SightLine
@@ -26,7 +27,7 @@ _SEED = 1
 
 
 def measure_link(dt_s: float, limits: Limits) -> tuple[tuple[float, float], tuple[LinkRow, ...]]:
-    """Send messages without loss by chance over distances that grow.
+    """Send messages without loss by chance or fading over distances that grow: the outer bound.
 
     Args:
         dt_s: Step of the link.
@@ -87,8 +88,7 @@ def _received(dt_s: float, limits: Limits, away_m: float, sight: SightLine) -> f
         latency_s=0.0,
         retransmissions=0,
         interval_s=1.0,
-        range_sight_m=limits.link_range_sight_m,
-        range_blocked_m=limits.link_range_blocked_m,
+        reach=Reach(sight_m=limits.link_range_sight_m, blocked_m=limits.link_range_blocked_m),
     )
     link = MessageLink(settings, dt_s, link_stream(_SEED, settings.link_id))
     free = sight.free((0.0, 0.0, _END_M), (away_m, 0.0, _END_M))

@@ -3,8 +3,9 @@
 """The message link: each transmission may be lost; what passes arrives after the latency.
 
 A message is sent, and while it is lost it is sent again after the retransmission interval until
-no retransmission is left. Loss has two causes: the seeded draw, and distance beyond the range,
-which is none during an outage.
+no retransmission is left. Loss has two causes: the seeded draw, whose chance the loss of the link
+and the fading over its reach make (`reach`), and distance beyond the reach, which is none during
+an outage.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from math import ceil
 
 import numpy as np
 
+from aurora_core.comm.reach import Reach
 from aurora_core.ports.random_streams import stream
 from aurora_core.quantities.ledger import is_out
 from aurora_core.trace.records import LinkEventKind, LinkRecord, LossReason
@@ -29,8 +31,7 @@ class LinkSettings:
         latency_s: From transmission to receipt.
         retransmissions: Further transmissions after the first.
         interval_s: Between transmissions.
-        range_sight_m: Range with line of sight (3-D).
-        range_blocked_m: Range without.
+        reach: Range with line of sight and without, and how much fades inside it.
         outage_s: From when to when the link reaches nowhere; None: it always does.
         rate_hz: Reports that the sender sends by itself, per second; None: none.
     """
@@ -42,8 +43,7 @@ class LinkSettings:
     latency_s: float
     retransmissions: int
     interval_s: float
-    range_sight_m: float
-    range_blocked_m: float
+    reach: Reach
     outage_s: tuple[float, float] | None = None
     rate_hz: float | None = None
 
@@ -131,14 +131,14 @@ class MessageLink:
         records = []
         if message.attempt == 0:
             records.append(self._record(tick, next_sequence(), message, LinkEventKind.SENT, path))
-        reach = (
-            self.settings.range_sight_m if path.line_of_sight else self.settings.range_blocked_m
-        )
+        reach = self.settings.reach
+        chance = reach.chance(self._loss_at(tick), path.distance_m, path.line_of_sight)
         # The draw is made for every transmission, in range or not: one draw per attempt keeps the
         # stream aligned when a repair moves a body in or out of range.
-        lost_by_chance = bool(self._generator.random() < self._loss_at(tick))
+        lost_by_chance = bool(self._generator.random() < chance)
         reason = LossReason.NONE
-        if path.distance_m > reach or is_out(self.settings.outage_s, tick, self._dt):
+        held = reach.holds(path.distance_m, path.line_of_sight)
+        if not held or is_out(self.settings.outage_s, tick, self._dt):
             reason = LossReason.RANGE
         elif lost_by_chance:
             reason = LossReason.RANDOM

@@ -18,6 +18,7 @@ from aurora_core.judging.quantities import (
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import Link, MessageTrigger, ScenarioSpec
+from aurora_core.spec.vocabulary import LinkOcclusion
 
 
 def link_between(spec: ScenarioSpec, sender: str, receiver: str) -> Link | None:
@@ -60,6 +61,8 @@ def link_conditions(inputs: Inputs, link: Link) -> Iterator[Condition]:
             yield delivery_latency.implied(inputs, None, link)
     if link.range_m is not None and link.range_m.provenance is Provenance.EXPLICIT:
         yield link_range.implied(inputs, link, link.range_m)
+    if link.occlusion is not LinkOcclusion.SHORTENS:
+        yield link_range.occlusion(inputs, link)
     if link.retransmissions.provenance is Provenance.EXPLICIT:
         yield attempts.stated_number(inputs, link)
     if link.retransmission_interval_s.provenance is Provenance.EXPLICIT:

@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.judging.build import Inputs, Underivable
-from aurora_core.spec.vocabulary import LinkOcclusion
 
 
 def unsaid(inputs: Inputs) -> Iterator[Underivable]:
@@ -20,7 +19,3 @@ def unsaid(inputs: Inputs) -> Iterator[Underivable]:
         if mission.dwell_s is not None:
             what = 'a dwell time at waypoints'
             yield Underivable(element=mission.id, what=what, span=mission.dwell_s.span)
-    for link in spec.links:
-        if link.occlusion is not LinkOcclusion.SHORTENS:
-            what = f'a link with occlusion {link.occlusion.value}'
-            yield Underivable(element=link.id, what=what, span=link.span)

@@ -8,6 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from aurora_core.comm.link import LinkSettings, MessageLink, link_stream
+from aurora_core.comm.reach import reach_of
 from aurora_core.conditions.capabilities import undone_events
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
@@ -440,7 +441,6 @@ def _flown_by(spec: ScenarioSpec, plan: UavPlan, flight: FlightSettings) -> Flig
 def _link(
     link: Link, limits: Limits, dt_s: float, seed: int, faults: tuple[Fault, ...]
 ) -> MessageLink:
-    stated = None if link.range_m is None else link.range_m.value
     return MessageLink(
         LinkSettings(
             link_id=link.id,
@@ -450,8 +450,7 @@ def _link(
             latency_s=link.latency_s.value,
             retransmissions=round(link.retransmissions.value),
             interval_s=link.retransmission_interval_s.value,
-            range_sight_m=limits.link_range_sight_m if stated is None else stated,
-            range_blocked_m=limits.link_range_blocked_m if stated is None else stated,
+            reach=reach_of(link, limits),
             outage_s=link.outage,
             rate_hz=None if link.rate_hz is None else link.rate_hz.value,
         ),

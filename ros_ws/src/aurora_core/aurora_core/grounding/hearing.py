@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import sqrt
 
+from aurora_core.comm.reach import reach_of
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.sites import samples_along
 from aurora_core.knowledge.limits import Limits
@@ -111,8 +112,11 @@ def _reaches(
     for pair in sorted(p for p in ways_m if agent in p):
         other = pair[0] if pair[1] == agent else pair[1]
         link = told.get(pair)
-        stated = None if link is None else link.range_m
-        range_m = limits.link_range_blocked_m if stated is None else stated.value
+        range_m = limits.link_range_blocked_m
+        if link is not None:
+            reach = reach_of(link, limits)
+            # Of one that stops at the first building no range is safe: that with sight, at least.
+            range_m = reach.blocked_m or reach.sight_m
         for x_m, y_m, z_m in _places(other, agents, uavs):
             square = (_RANGE_SHARE * range_m) ** 2 - z_m * z_m
             if square > 0.0:

@@ -9,10 +9,10 @@ and farther than that.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
 
 import numpy as np
 
+from aurora_core.comm.reach import reach_of
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at, is_kept_away, kept_away_m
 from aurora_core.grounding.kept_apart import kept_apart
@@ -155,10 +155,11 @@ def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> 
         limits: With the ranges of radio links.
     """
     share, origin = 1.0, site.origin()[:2]
-    ranges = {(k.sender, k.receiver): k.range_m for k in spec.links}
+    reaches = {(k.sender, k.receiver): reach_of(k, limits) for k in spec.links}
     for sender, receiver, due_s in _messages(spec):
-        stated = ranges.get((sender, receiver))
-        reach_m = inf if stated is None else stated.value
+        reach = reaches.get((sender, receiver))
+        seen_m = limits.link_range_sight_m if reach is None else reach.sight_m
+        hidden_m = limits.link_range_blocked_m if reach is None else reach.blocked_m
         # Whoever of the two stays at a place: it is as far from one to the other and back.
         ends = (sender, receiver) if _place_of(spec, sender) else (receiver, sender)
         place = _place_of(spec, ends[0])
@@ -169,8 +170,8 @@ def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> 
         scores = []
         for x, y, up_m in _heard_at(spec, site, places, ends[1], due_s):
             away_m = norm2(norm2(x - point_x, y - point_y), height_m - up_m)
-            sight_m = _RANGE_SHARE * min(reach_m, limits.link_range_sight_m)
-            near = away_m <= _RANGE_SHARE * min(reach_m, limits.link_range_blocked_m)
+            sight_m = _RANGE_SHARE * min(seen_m, limits.link_range_sight_m)
+            near = away_m <= _RANGE_SHARE * min(hidden_m, limits.link_range_blocked_m)
             # Beyond the range nearer is better still: some of that share is left.
             far = _FAR * sight_m / away_m if away_m > sight_m else _HIDDEN
             scores.append(1.0 if near else far)

@@ -9,6 +9,7 @@ from math import dist
 
 import numpy as np
 
+from aurora_core.comm.reach import reach_of
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.planned_flight import (
     PlannedFlight,
@@ -21,7 +22,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.scene import Link
-from aurora_core.spec.vocabulary import LinkOcclusion, MissionMode
+from aurora_core.spec.vocabulary import MissionMode
 
 
 def link_score(
@@ -84,17 +85,11 @@ def _score(
     pairs = [(a, b) for a in senders for b in receivers]
     if not pairs:
         return 1.0  # an end that is placed later hinders no site
-    stated = link.range_m.value if link.range_m is not None else None
-    open_m = limits.link_range_sight_m if stated is None else stated
-    hidden_m = {
-        LinkOcclusion.SHORTENS: limits.link_range_blocked_m if stated is None else stated,
-        LinkOcclusion.BLOCKS: 0.0,
-        LinkOcclusion.IGNORED: open_m,
-    }[link.occlusion]
+    reach = reach_of(link, limits)
     a, b = (np.array(ends, dtype=np.float64) for ends in zip(*pairs, strict=True))
     sees = airspace.sight.clearance_series(a, b) > 0.0
     found = [
-        min(1.0, (open_m if free else hidden_m) / max(dist(*pair), 1e-9))
+        min(1.0, reach.range_m(bool(free)) / max(dist(*pair), 1e-9))
         for pair, free in zip(pairs, sees, strict=True)
     ]
     return sum(found) / len(found)

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.comm.reach import Reach, reach_of
 from aurora_core.errors import VerificationError
 from aurora_core.outcomes.condition import ClimbArguments, Condition, MissionArguments, Window
 from aurora_core.outcomes.verdict import Reason
@@ -255,10 +256,7 @@ class Context:
     def links(self) -> tuple[LinkModel, ...]:
         """Links of the specification with the limits in force."""
         limits = self.view.world.limits
-        return tuple(
-            _model(link, limits.link_range_sight_m, limits.link_range_blocked_m)
-            for link in self.spec.links
-        )
+        return tuple(_model(link, reach_of(link, limits)) for link in self.spec.links)
 
     @cached_property
     def messages(self) -> tuple[Message, ...]:
@@ -470,8 +468,7 @@ class Context:
         return None
 
 
-def _model(link: Link, range_sight_m: float, range_blocked_m: float) -> LinkModel:
-    stated = link.range_m.value if link.range_m is not None else None
+def _model(link: Link, reach: Reach) -> LinkModel:
     return LinkModel(
         link_id=link.id,
         sender=link.sender,
@@ -480,8 +477,9 @@ def _model(link: Link, range_sight_m: float, range_blocked_m: float) -> LinkMode
         latency_s=link.latency_s.value,
         retransmissions=int(link.retransmissions.value),
         interval_s=link.retransmission_interval_s.value,
-        range_sight_m=range_sight_m if stated is None else stated,
-        range_blocked_m=range_blocked_m if stated is None else stated,
+        range_sight_m=reach.sight_m,
+        range_blocked_m=reach.blocked_m,
+        fades=reach.decade_db > 0.0,
         outage_s=link.outage,
         reports=link.rate_hz is not None,
     )

@@ -54,6 +54,9 @@ class Limits(_Table):
     tracking_altitude_m: Positive
     link_range_sight_m: Positive
     link_range_blocked_m: NotNegative
+    # towards its range a link that states neither range nor loss loses more: ten times as much
+    # with so much less received; 0: nothing is lost inside, as before 2026-11-29
+    link_decade_db: NotNegative = omitted(0.0)
     vehicle_speed_max_mps: Positive
     pedestrian_speed_max_mps: Positive
     duration_min_s: NotNegative

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.comm.link import link_stream
+from aurora_core.comm.reach import reach_of
 from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.spec.scenario import Link
@@ -35,11 +36,12 @@ def chance_findings(context: Context, seed: int) -> Iterator[Finding]:
 
 
 def _link(context: Context, link: Link, seed: int) -> Iterator[Finding]:
-    draws = link_stream(seed, link.id)
+    draws, reach = link_stream(seed, link.id), reach_of(link, context.view.world.limits)
     for record in context.view.trace.links:
         if record.link != link.id or record.kind not in _ATTEMPTS:
             continue
-        lost = bool(draws.random() < link.loss.value)  # one draw for each, in range or not
+        chance = reach.chance(link.loss.value, record.distance_m, record.line_of_sight)
+        lost = bool(draws.random() < chance)  # one draw for each, in range or not
         passed = record.kind is LinkEventKind.ATTEMPT_PASSED
         if (passed and lost) or (record.reason is LossReason.RANDOM and not lost):
             yield Finding(

@@ -34,7 +34,8 @@ class LinkModel:
         retransmissions: Further attempts after the first.
         interval_s: Between attempts.
         range_sight_m: Range with line of sight.
-        range_blocked_m: Range without.
+        range_blocked_m: Range without; 0: nothing passes.
+        fades: Towards the range more is lost, which nothing is said of here but that it may be.
         outage_s: From when to when the link reaches nowhere; None: it always does.
         reports: The sender reports by itself, beside what events send.
     """
@@ -50,6 +51,7 @@ class LinkModel:
     range_blocked_m: float
     outage_s: tuple[float, float] | None = None
     reports: bool = False
+    fades: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -278,7 +280,8 @@ def _statistics(
     lost = sum(r.reason is LossReason.RANDOM for r in records)
     passed = sum(r.kind is LinkEventKind.ATTEMPT_PASSED for r in records)
     attempts = lost + passed
-    if attempts < statistics_from:
+    # What fades is lost with a chance of its own each time: its draws are compared one by one.
+    if model.fades or attempts < statistics_from:
         return []
     low, high = binomial_interval(attempts, model.loss)
     if low <= lost <= high:

@@ -273,10 +273,12 @@ class Link(Element):
 
     Attributes:
         sender: Agent or UAV; a roadside unit is an agent of the type `rsu`.
-        loss: Probability that one transmission is lost.
+        loss: Probability that one transmission is lost; one that is not stated, and 0, rises
+            towards the range where none is stated either.
         range_m: The same with and without sight; None: the limits' ranges.
         retransmissions: Further transmissions of a message that was lost.
-        occlusion: What a building or vehicle between the two does.
+        occlusion: What a building or vehicle between the two does: `shortens` the range to that
+            without sight, `blocks` all, or is `ignored`.
         outage_s: From when to when nothing passes, in scenario time.
         rate_hz: Reports per second that the sender sends by itself; None: what events send.
     """

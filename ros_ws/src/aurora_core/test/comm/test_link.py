@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import count
 
 from aurora_core.comm.link import LinkSettings, MessageLink, Path, whole_ticks
+from aurora_core.comm.reach import Reach
 from aurora_core.ports.random_streams import stream
 from aurora_core.trace.records import LinkEventKind, LinkRecord, LossReason
 
@@ -22,8 +23,7 @@ def _settings(loss: float = 0.0, latency_s: float = 0.1) -> LinkSettings:
         latency_s=latency_s,
         retransmissions=3,
         interval_s=0.2,
-        range_sight_m=500.0,
-        range_blocked_m=200.0,
+        reach=Reach(sight_m=500.0, blocked_m=200.0),
     )
 
 

@@ -14,7 +14,7 @@ from aurora_core.spec.parameter import Unit
 
 def test_every_such_element_is_named(tb: ModuleType) -> None:
     case = tb.tailgate_case()
-    (link,), (mission,) = case.spec.links, case.spec.missions
+    (mission,) = case.spec.missions
     route = dict(mission) | {
         'mode': 'navigate',
         'pattern': 'line',
@@ -24,7 +24,6 @@ def test_every_such_element_is_named(tb: ModuleType) -> None:
     changes = {
         'world': dict(case.spec.world) | {'seed': 7},
         'missions': (route,),
-        'links': (dict(link) | {'occlusion': 'blocks'},),
     }
     inputs = Inputs(
         spec=tb.spec(**dict(case.spec) | changes),
@@ -35,7 +34,6 @@ def test_every_such_element_is_named(tb: ModuleType) -> None:
     assert {(u.element, u.what) for u in unsaid(inputs)} == {
         ('world', 'the seed 7 of the request: give it to the run'),
         (mission.id, 'a dwell time at waypoints'),
-        (link.id, 'a link with occlusion blocks'),
     }
 
 

@@ -14,6 +14,7 @@ from flown_missions import DT_S
 from flown_missions import SETTINGS as FLIGHT
 
 from aurora_core.comm.link import LinkSettings, MessageLink
+from aurora_core.comm.reach import Reach
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.plan import plans_with_events
@@ -324,8 +325,7 @@ class Stage:
             latency_s=link.latency_s.value,
             retransmissions=3,
             interval_s=0.2,
-            range_sight_m=500.0,
-            range_blocked_m=200.0,
+            reach=Reach(sight_m=500.0, blocked_m=200.0),
         )
         loss_at = loss_with_faults(link.id, link.loss.value, self.faults, DT_S)
         return MessageLink(settings, DT_S, stream(1, f'link:{link.id}'), loss_at)

@@ -15,6 +15,7 @@ import shapely
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.faults import Fault, read_fault
+from aurora_core.execution.observe import Observation
 from aurora_core.execution.plan import (
     EXECUTOR_VERSION,
     UAV_SIZE_M,
@@ -31,6 +32,7 @@ from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.outcomes.agsg import Agsg, Stage
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import LinkOcclusion
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.hashing import trace_sha256
 from aurora_core.trace.layout import (
@@ -41,7 +43,7 @@ from aurora_core.trace.layout import (
     UavColumn,
     UavMode,
 )
-from aurora_core.trace.records import LinkEventKind, ScenarioEventKind
+from aurora_core.trace.records import LinkEventKind, LossReason, ScenarioEventKind
 from aurora_core.trace.trace import Trace
 
 FloatArray = npt.NDArray[np.float64]
@@ -216,6 +218,35 @@ def test_a_message_without_a_link_is_refused(build: Build, graph: Callable[[str]
     with pytest.raises(ExecutionError, match='no link between them') as caught:
         build(agsg.model_copy(update={'spec': spec}))
     assert 'uav1 to ego' in caught.value.message
+
+
+@pytest.mark.parametrize(
+    ('occlusion', 'sees', 'last'),
+    [
+        ('shortens', False, LinkEventKind.DELIVERED),
+        ('blocks', False, LinkEventKind.FAILED),
+        ('blocks', True, LinkEventKind.DELIVERED),
+        ('ignored', False, LinkEventKind.DELIVERED),
+    ],
+)
+def test_what_is_in_between_does_to_a_message_what_the_link_says(
+    build: Build,
+    graph: Callable[[str], Agsg],
+    monkeypatch: pytest.MonkeyPatch,
+    occlusion: str,
+    sees: bool,
+    last: LinkEventKind,
+) -> None:
+    monkeypatch.setattr(Observation, 'line_of_sight', lambda *_: sees)
+    agsg = graph('tailgate')
+    (link,) = agsg.spec.links
+    spec = agsg.spec.model_copy(
+        update={'links': (link.model_copy(update={'occlusion': LinkOcclusion(occlusion)}),)}
+    )
+    trace, _ = run(build(agsg.model_copy(update={'spec': spec})))
+    assert trace.links[-1].kind is last
+    lost = {r.reason for r in trace.links if r.kind is LinkEventKind.ATTEMPT_LOST}
+    assert lost == ({LossReason.RANGE} if last is LinkEventKind.FAILED else set())
 
 
 def test_a_fault_on_an_unknown_subject_is_refused(build: Build) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from aurora_core.comm.link import LinkSettings, MessageLink
+from aurora_core.comm.reach import Reach
 from aurora_core.execution.reports import Reports
 from aurora_core.ports.random_streams import stream
 
@@ -29,7 +30,7 @@ def _sent(sender: str, rate_hz: float | None, ticks: int = 200) -> list[tuple[in
     """Return (tick, label) of what is sent; uav1 is up at tick 40 and done at tick 120."""
     settings = LinkSettings(
         link_id='l1', sender=sender, receiver='ego', loss=0.0, latency_s=0.1, retransmissions=0,
-        interval_s=0.2, range_sight_m=500.0, range_blocked_m=200.0, rate_hz=rate_hz,
+        interval_s=0.2, reach=Reach(sight_m=500.0, blocked_m=200.0), rate_hz=rate_hz,
     )  # fmt: skip
     found: list[tuple[int, str]] = []
     link = MessageLink(settings, DT_S, stream(1, 'link:l1'))

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import pytest
 from kind_rows import Row, cut
-from trace_builder import number
+from trace_builder import building, number, world
 from trace_cases import Case, message, spec, tailgate_case
 
 from aurora_core.outcomes.verdict import Reason
@@ -46,6 +46,17 @@ def _range(metres: float, *, lost_for_it: bool = False) -> Case:
         ]
         case.run.links[:] = records
     return _link(case, range_m=metres)
+
+
+def _behind(occlusion: str, *, wall: bool = True, lost_for_it: bool = False) -> Case:
+    """A house stands over the van and the ego, and the UAV above it; or none does."""
+    case = _range(100.0, lost_for_it=lost_for_it)
+    (link,) = case.spec.links
+    stated = {**dict(link), 'occlusion': occlusion, 'range_m': None}
+    case.spec = spec(**{**dict(case.spec), 'links': (stated,)})
+    if wall:
+        case.world = world(buildings=(building(-1000.0, -50.0, 6000.0, 50.0, 5.0),))
+    return case
 
 
 def _apart() -> float:
@@ -145,6 +156,33 @@ ROWS = (
         what='lost',
     ),
     Row(id='l1.range', make=lambda: _nothing_sent(_range(100.0)), reason=NEVER),
+    # What goes through a wall that stops it, and what a wall stops that is to be ignored.
+    Row(id='l1.occlusion', make=lambda: _behind('blocks'), margin=-_apart()),
+    Row(
+        id='l1.occlusion',
+        make=lambda: _behind('blocks', lost_for_it=True),
+        margin=_apart(),
+        what='blocks',
+    ),
+    Row(
+        id='l1.occlusion',
+        make=lambda: _behind('blocks', wall=False),
+        margin=500.0 - _apart(),
+        what='open',
+    ),
+    Row(
+        id='l1.occlusion',
+        make=lambda: _behind('ignored'),
+        margin=500.0 - _apart(),
+        what='ignored',
+    ),
+    Row(
+        id='l1.occlusion',
+        make=lambda: _behind('ignored', lost_for_it=True),
+        margin=_apart() - 500.0,
+        what='ignored',
+    ),
+    Row(id='l1.occlusion', make=lambda: _nothing_sent(_behind('blocks')), reason=NEVER),
     Row(id='l1.retransmissions', make=lambda: _tried(2, 2.0), margin=0.0),
     Row(id='l1.retransmissions', make=lambda: _tried(2, 1.0), margin=-1.0, what='too-often'),
     Row(id='l1.retransmissions', make=lambda: _tried(4, 5.0), margin=-2.0, what='too-rarely'),

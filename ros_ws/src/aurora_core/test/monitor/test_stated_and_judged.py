@@ -25,7 +25,6 @@ from aurora_core.spec.scenario import ScenarioSpec
 OPEN = {
     # What is said of these is `not_encoded`, see `conditions/unsaid.py`.
     ('UavMission', 'dwell_s'),
-    ('Link', 'occlusion'),
 }
 
 
