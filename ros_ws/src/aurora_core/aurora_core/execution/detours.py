@@ -110,6 +110,8 @@ class Detours:
         """
         way, here = machine.way_there, (*machine.stop_point(state), float(state[UavColumn.Z]))
         foot = (*here[:2], goal[2])
+        if way.by[-1:] == (goal,):
+            return True  # who leaves the bends of such a way would cut its corners
         if self._free((here, foot, goal), self._clearance_m + SPARE_M):
             way.level_off(abs(here[2] - goal[2]))
             return True

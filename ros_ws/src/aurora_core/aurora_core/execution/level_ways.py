@@ -100,9 +100,7 @@ def _places(here: Point3, goal: Point3) -> tuple[Point3, ...]:
 class _Grid:
     """How far it is to a goal at its height, from every cell of a grid round the way."""
 
-    def __init__(
-        self, airspace: Airspace, here: Point2, goal: Point3, clearance_m: float
-    ) -> None:
+    def __init__(self, airspace: Airspace, here: Point2, goal: Point3, clearance_m: float) -> None:
         self._z_m = goal[2]
         low = [floor((min(a, b) - _BESIDE_M) / _GRID_M) for a, b in zip(here, goal, strict=False)]
         high = [ceil((max(a, b) + _BESIDE_M) / _GRID_M) for a, b in zip(here, goal, strict=False)]

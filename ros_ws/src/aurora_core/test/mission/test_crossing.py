@@ -58,6 +58,6 @@ def test_a_level_way_begins_at_its_height(from_m: float) -> None:
         goal, velocity = crossing.goal(reference, (reference.x, reference.y), GOAL)
         reference.step(goal, velocity, FLIGHT, DT_S)
         points.append((reference.x, reference.y, reference.z))
-    way = [z for x, _, z in points if 1.0 < x]
+    way = [z for x, _, z in points if x > 1.0]
     assert (min(way), max(way)) == pytest.approx((20.0, 20.0), abs=0.6)
     assert points[-1] == pytest.approx(GOAL[0], abs=0.5)

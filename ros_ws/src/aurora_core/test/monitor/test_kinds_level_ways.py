@@ -29,7 +29,9 @@ ACROSS_M, DOWN_M = 0.5, 0.1
 SINKS = 300
 
 
-def _flies_to(sinks_at_m: float, *, slant: bool = False, roof: bool = False, **asked: object) -> Case:
+def _flies_to(
+    sinks_at_m: float, *, slant: bool = False, roof: bool = False, **asked: object
+) -> Case:
     """A drone hovers 70 m high, then flies 200 m to a place where it is to be 40 m high.
 
     Args:

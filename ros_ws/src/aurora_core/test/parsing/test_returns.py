@@ -11,9 +11,7 @@ from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.scenario import Event, ScenarioSpec, UavAction
 from aurora_core.spec.vocabulary import ClauseStatus
 
-CONTEXT = ParseContext(
-    map_name='downtown', landmark_names=('central_park', 'clock_tower'), seed=1
-)
+CONTEXT = ParseContext(map_name='downtown', landmark_names=('central_park', 'clock_tower'), seed=1)
 
 
 def _read(prompt: str) -> ScenarioSpec:
@@ -66,9 +64,7 @@ def _flights(spec: ScenarioSpec) -> list[tuple[str, str, float]]:
         ),
     ],
 )
-def test_a_flight_ends_as_it_is_told(
-    prompt: str, flights: list[tuple[str, str, float]]
-) -> None:
+def test_a_flight_ends_as_it_is_told(prompt: str, flights: list[tuple[str, str, float]]) -> None:
     spec = _read(prompt)
     assert _flights(spec) == flights
     assert _is_whole(spec)
