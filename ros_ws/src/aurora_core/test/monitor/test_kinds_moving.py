@@ -14,6 +14,7 @@ from kind_rows import Row, gone
 from trace_builder import number
 from trace_cases import Case, spec
 
+from aurora_core.outcomes.schedule import AgentFacts
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 
@@ -53,6 +54,13 @@ def _creeps(speed_mps: float) -> Case:
     return case
 
 
+def _told_at_1_s(gains_mps2: float) -> Case:
+    case = told_car('stop', np.clip(gains_mps2 * 0.05 * TICK, 0.0, 1.2), 1.0)
+    facts = AgentFacts(agent='car1', acceleration_mps2=1.2, deceleration_mps2=4.0)
+    case.facts = case.facts.model_copy(update={'agents': (facts,)})
+    return case
+
+
 ROWS = (
     Row(id='e1.moving', make=lambda: _rests_from(310), margin=6.0),
     Row(id='e1.moving', make=lambda: _rests_from(262), margin=6.0, what='just-now'),
@@ -68,6 +76,9 @@ ROWS = (
     # A wait is over 4 s after the trigger: it was on the move when that came.
     Row(id='e1.moving', make=lambda: _after_4_s(310), margin=6.0, what='waits'),
     Row(id='e1.moving', make=lambda: _after_4_s(200), margin=-2.0, what='waits'),
+    # At 1 s it has half of the 1.2 m/s that it can have gained by then.
+    Row(id='e1.moving', make=lambda: _told_at_1_s(1.2), margin=0.6, what='at-once'),
+    Row(id='e1.moving', make=lambda: _told_at_1_s(0.0), margin=-0.6, what='at-once'),
     Row(id='e1.moving', make=lambda: _creeps(2.0), margin=1.0, what='creeps'),
     Row(id='e1.moving', make=lambda: _creeps(0.5), margin=-0.5, what='creeps'),
     Row(id='e1.moving', make=lambda: never_due('stop', 0.0), reason=Reason.PREMISE_NEVER),

@@ -24,11 +24,12 @@ from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.events import BRAKING, SLOWS
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec
+from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, TimeTrigger
 from aurora_core.spec.vocabulary import AgentType
 
-# Who is told to creep is on the move at this share of that.
-_OF_STATED = 0.5
+# Who is told to creep is on the move at this share of that, and so is who has no time to be
+# faster: all stand at t = 0.
+_OF_STATED = _OF_GAINED = 0.5
 
 
 class MovingBeforeAction(OfEvent):
@@ -79,6 +80,10 @@ def implied(inputs: Inputs, event: Event, action: AgentAction, source: Source) -
     if _slowed_before(inputs.spec, event, action.agent):
         return None
     least_mps = _least_mps(inputs.spec, inputs.tolerances, action.agent)
+    facts = inputs.agent_facts(action.agent)
+    if isinstance(event.trigger, TimeTrigger) and facts is not None:
+        gained_mps = facts.acceleration_mps2 * event.trigger.at_s.value
+        least_mps = min(least_mps, _OF_GAINED * gained_mps)
     # Who is to yield may have been made to wait by traffic: it has come there.
     yields = action.do not in BRAKING
     before_s = None if yields else inputs.tolerances.acts_before_s
