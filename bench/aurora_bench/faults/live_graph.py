@@ -11,10 +11,9 @@ import resource
 import signal
 import subprocess
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
 
 from aurora_core.errors import AuroraError
 
@@ -55,13 +54,9 @@ class LiveGraph:
     Args:
         folder: For pid files, logs and runs.
         domain: ROS_DOMAIN_ID.
-        more: Of the environment of its processes.
     """
 
-    def __init__(
-        self, folder: Path, domain: int, more: Mapping[str, str] = MappingProxyType({})
-    ) -> None:
-        folder.mkdir(exist_ok=True)
+    def __init__(self, folder: Path, domain: int) -> None:
         self._folder = folder
         self._domain = domain
         self._mark = f'AURORA_RUN_DIR={folder / "graph"}'.encode()
@@ -69,7 +64,6 @@ class LiveGraph:
             **os.environ,
             'ROS_DOMAIN_ID': str(domain),
             'AURORA_RUN_DIR': str(folder / 'graph'),
-            **more,
         }
         self._environment.pop('ROS_LOG_DIR', None)
 

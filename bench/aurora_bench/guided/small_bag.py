@@ -17,7 +17,7 @@ from mcap.writer import CompressionType, Writer
 from aurora_bench.bags.forge import mcap_of
 from aurora_cli.main import run_command_line
 
-_PROMPT = 'A scenario of 6 seconds. A drone hovers at 30 m for 5 seconds.'
+_PROMPT = 'A drone hovers over an intersection at 30 m for 5 seconds.'
 _MAP = 'junction'
 _KEPT = 10  # messages of each topic
 # Mode of all edits, topic, number of the message, offset, length of the new bytes.

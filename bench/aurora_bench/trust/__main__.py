@@ -72,10 +72,6 @@ PARTS = (
     Part(ident='R16', name='clocks, as tests', wanted=25, usual=1, chunk=1, run=machinery.clocks),
     Part(ident='R16', name='clocks moved', wanted=33, usual=6, chunk=1, run=clocks.moved),
     Part(
-        ident='R16', name='clocks moved, in the graph', wanted=11, usual=3, chunk=11,
-        run=clocks.moved_in_the_graph,
-    ),
-    Part(
         ident='R16', name='time zones and languages', wanted=12, usual=12, chunk=4,
         run=surroundings.places,
     ),

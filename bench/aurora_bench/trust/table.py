@@ -51,6 +51,7 @@ _IN_PART = {
     'SUMO faults, as tests': 'tests of the client, by their names; no crash inside libsumo, no '
     'vehicle that SUMO loses in the middle of a run',
     'clocks, as tests': 'tests of clocks and silences, by their names',
+    'clocks moved': 'the local engine; under libfaketime no run of a graph came to its end',
 }
 
 

@@ -224,7 +224,6 @@ def test_without_libfaketime_no_clock_is_said_to_have_been_moved(
 ) -> None:
     monkeypatch.setenv('AURORA_FAKETIME', str(tmp_path / 'nowhere'))
     assert clocks.moved(0, 1, tmp_path) == NOTHING
-    assert clocks.moved_in_the_graph(0, 1, tmp_path) == NOTHING
 
 
 @pytest.mark.parametrize(
