@@ -281,6 +281,10 @@ class ScenarioExecutor:
         resume = GroundCommand(agent=index, kind=GroundCommandKind.RESUME)
         return [resume, self._drive_command(index, agent)]
 
+    def _is_over(self, agent: GroundedAgent, tick: int) -> bool:
+        """Tell whether an agent has waited for as long as it is to."""
+        return tick * self._dt_s >= agent.release_after_s
+
     def _release(self, tick: int, seen: Observation) -> list[GroundCommand]:
         commands: list[GroundCommand] = []
         if not self._held:
@@ -302,7 +306,8 @@ class ScenarioExecutor:
                 )
                 or (agent.release is ReleaseOn.OBSERVED and machine.missions_done)
             )
-            if ready or _is_as_far(agent, seen):
+            waited = agent.release is ReleaseOn.WAITED and self._is_over(agent, tick)
+            if ready or waited or _is_as_far(agent, seen):
                 self._held.discard(index)
                 self.note(tick, ScenarioEventKind.RELEASED, agent.id)
                 commands += self._released_commands(index, agent)

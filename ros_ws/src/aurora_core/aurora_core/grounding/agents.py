@@ -347,6 +347,7 @@ class AgentPlacer:
             release_agent=release.agent,
             release_within_m=release.within_m,
             release_beyond_m=release.beyond_m,
+            release_after_s=release.after_s,
             drive_speed_mps=speed_mps,
             acceleration_mps2=record.accel_mps2,
             deceleration_mps2=record.decel_mps2,

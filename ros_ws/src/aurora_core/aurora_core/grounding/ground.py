@@ -237,7 +237,7 @@ class Grounder:
                 tried.append(TriedSite.of(site, why=peopled))
                 continue
             scored += 1
-            road *= 1.0 if comes_about(spec, peopled) else _NEVER
+            road *= 1.0 if comes_about(spec, peopled, MapPlaces(self._map), self._air) else _NEVER
             road *= all_show(spec, peopled, self._map.network, self._tolerances)
             option = self._option(spec, peopled, road, planner)
             if isinstance(option, Rejected):

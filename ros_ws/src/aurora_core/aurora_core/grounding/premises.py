@@ -14,11 +14,13 @@ import numpy as np
 
 from aurora_core.comm.reach import reach_of
 from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.awaited import awaited_at, is_kept_away, kept_away_m
 from aurora_core.grounding.kept_apart import kept_apart
 from aurora_core.grounding.nearby import ON_SIDEWALKS
 from aurora_core.grounding.places import ROADS, MapPlaces, has_point
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
+from aurora_core.grounding.watched import looks
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.events import least_due_s, sets_off
 from aurora_core.spec.parking import stands
@@ -48,16 +50,23 @@ _STAYS = (BehaviorKind.WAIT, BehaviorKind.PARK, BehaviorKind.STOP)
 # Of the range of a link so much is counted on; beyond that of a hidden one it may be hidden.
 _RANGE_SHARE = 0.9
 _HIDDEN, _FAR = 0.6, 0.5
+# From so high one looks at what is so high (m).
+_EYES_M, _LOOKED_AT_M = 1.2, 1.0
 
 
-def comes_about(spec: ScenarioSpec, site: Site) -> bool:
-    """Tell whether every two on a site that an event waits for can come near each other.
+def comes_about(spec: ScenarioSpec, site: Site, places: MapPlaces, airspace: Airspace) -> bool:
+    """Tell whether what a request waits for can come about on a site.
+
+    Every two that an event waits for can come near each other, and who is to look at what stays
+    where it is sees it from where it starts.
 
     Args:
         spec: The request.
         site: Where its vehicles and persons stand.
+        places: Of the map.
+        airspace: For lines of sight between buildings.
     """
-    return all(
+    return _sees_at_first(spec, site, places, airspace) and all(
         _can_meet(one, other, event.trigger.value_m.value)
         for event in spec.events
         if isinstance(event.trigger, DistanceTrigger)
@@ -222,6 +231,31 @@ def _drives_from_start(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether somebody drives whom no event sets off."""
     drives = any(b.kind not in _STAYS for b in agent.behaviors)
     return drives and agent.type is not AgentType.RSU and sets_off(spec.events, agent.id) is None
+
+
+def _sees_at_first(spec: ScenarioSpec, site: Site, places: MapPlaces, airspace: Airspace) -> bool:
+    """Tell whether who is to see something for a time has it before its eyes at t = 0.
+
+    Who drives looks ahead, who walks all round.
+    """
+    for name, target, _ in looks(spec):
+        seat, seen = site.seat(name), site.seat(target)
+        if seat is None:
+            continue
+        x, y, ahead_x, ahead_y = seat.path.position_at(seat.arc_m)
+        if seen is not None:
+            to_x, to_y, *_ = seen.path.position_at(seen.arc_m)
+        elif has_point(target):
+            to_x, to_y = places.itself(target, site.origin()[:2])
+        else:
+            continue
+        if isinstance(seat, SeatedAgent) and (to_x - x) * ahead_x + (to_y - y) * ahead_y <= 0.0:
+            return False
+        sight = airspace.sight.around(to_x, to_y)
+        line = np.array([[x, y, _EYES_M]]), np.array([[to_x, to_y, _LOOKED_AT_M]])
+        if sight.clearance_series(*line)[0] <= 0.0:
+            return False
+    return True
 
 
 def _can_meet(

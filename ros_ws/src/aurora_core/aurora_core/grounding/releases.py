@@ -11,7 +11,7 @@ from aurora_core.grounding.awaited import awaited_at, is_kept_away, leaving
 from aurora_core.grounding.causes import causes, slows_at_sight
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import encounters, moves, stated_times_s
-from aurora_core.grounding.watched import asked_to_see
+from aurora_core.grounding.watched import asked_to_see, looks
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.events import bodies_of, bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, counts_from_capture, left_by
@@ -37,6 +37,8 @@ from aurora_core.spec.vocabulary import MissionMode
 # with what its target needs to be on the move.
 _CLIMBS_MPS = 2.5
 _THERE_S = 25.0
+# Who is to look at something for some time does so longer (s).
+_LOOKED_S = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,13 +51,15 @@ class Release:
     agent: str = ''
     within_m: float = 0.0
     beyond_m: float = 0.0
+    after_s: float = 0.0
 
 
 def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Release:
     """Return when an agent may start: whoever an event lets set off waits for it.
 
     Of whom nothing is said but that a UAV tells it something stays within reach until that has
-    landed.
+    landed. Of whom nothing is said but that it sees somebody, or a place, for some time drives off
+    when it has.
     """
     if sets_off(spec.events, agent.id) is not None:
         return Release(on=ReleaseOn.EVENT)
@@ -69,6 +73,9 @@ def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Rel
     if release == Release() and (route := _reported_route(spec, agent)) is not None:
         # Nor does it leave before: at the end of the route it is to be in reach.
         return Release(on=ReleaseOn.CAPTURED, uav=route.uav, mission=route.id)
+    looks_s = max((s for who, _, s in looks(spec) if who == agent.id), default=0.0)
+    if release == Release() and looks_s > 0.0:
+        return Release(on=ReleaseOn.WAITED, after_s=looks_s + _LOOKED_S)
     teller = _told_by(spec, agent)
     return release if teller is None else Release(on=ReleaseOn.OBSERVED, uav=teller)
 

@@ -10,11 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.grounding.pace import encounters, moves_during
+from aurora_core.grounding.nearby import ON_SIDEWALKS
+from aurora_core.grounding.pace import encounters, moves, moves_during
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.events import SendMessage, actor_of
+from aurora_core.spec.parking import stands
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
 from aurora_core.spec.vocabulary import BehaviorKind
@@ -90,6 +92,23 @@ def asked_to_see(spec: ScenarioSpec, uav: str) -> set[str]:
         for one in spec.conditions
         if one.quantity in _OF_SIGHT and one.of[:1] == (uav,) and len(one.of) > 1
     }
+
+
+def looks(spec: ScenarioSpec) -> Iterator[tuple[str, str, float]]:
+    """Yield who on the ground has to see what stays where it is, and for how long (s).
+
+    Of who looks no motion is told. What stays is a place, or somebody on foot of whom none is.
+    """
+    idle = {a.id for a in spec.agents if not moves(spec, a)}
+    on_foot = [a for a in spec.agents if a.type in ON_SIDEWALKS]
+    staying = {a.id for a in on_foot if a.id in idle or stands(a)}
+    bodies = {body.id for body in (*spec.agents, *spec.uavs)}
+    for one in spec.conditions:
+        least = one.quantity == QuantityName.VISIBLE_TIME and one.op in ('>', '>=')
+        if least and len(one.of) > 1 and one.of[0] in idle:
+            observer, target = one.of
+            if target not in bodies or target in staying:
+                yield observer, target, one.value.value
 
 
 def _to_see(spec: ScenarioSpec, mission: UavMission) -> set[str]:

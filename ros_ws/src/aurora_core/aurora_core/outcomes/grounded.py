@@ -29,6 +29,7 @@ class ReleaseOn(StrEnum):
     OBSERVED = 'observed'  # a UAV has finished watching it
     NEARED = 'neared'  # another agent has come near
     PARTED = 'parted'  # another agent has drawn away
+    WAITED = 'waited'  # so much time has passed
     EVENT = 'event'  # the event that lets it set off has happened
     NEVER = 'never'  # stands still
 
@@ -61,6 +62,7 @@ class GroundedAgent(Document):
         release_agent: The agent whose coming near, or drawing away, releases it ...
         release_within_m: ... and how near, or ...
         release_beyond_m: ... how far away that is.
+        release_after_s: Or how long it waits.
         drive_speed_mps: Stated speed, held from the release on (None: drives with the traffic).
         acceleration_mps2: What its type can do from rest.
         deceleration_mps2: And to slow down, without emergency.
@@ -117,6 +119,7 @@ class GroundedAgent(Document):
     halt_xy_m: tuple[FiniteFloat, FiniteFloat] | None = omitted(None)
     release_agent: str = omitted('')
     release_within_m: FiniteFloat = omitted(0.0)
+    release_after_s: FiniteFloat = omitted(0.0)
     release_beyond_m: FiniteFloat = omitted(0.0)
 
 

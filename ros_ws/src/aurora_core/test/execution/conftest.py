@@ -69,6 +69,7 @@ class Stage:
         absent: Ids of agents that the request names and that nobody placed.
         releases: When each may start, as (release, UAV); START where not given.
         parted: Who waits until whom is how far away (m).
+        waits_s: Who waits for how long.
         halts: Where persons wait who have walked there to cross; all of them are persons then.
         stops_s: How long who halts stands there.
         tops_mps: How fast each is at most by itself.
@@ -87,6 +88,7 @@ class Stage:
     absent: tuple[str, ...] = ()
     releases: dict[str, tuple[ReleaseOn, str]] = field(default_factory=dict)
     parted: dict[str, tuple[str, float]] = field(default_factory=dict)
+    waits_s: dict[str, float] = field(default_factory=dict)
     halts: dict[str, tuple[float, float]] = field(default_factory=dict)
     stops_s: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
@@ -220,6 +222,7 @@ class Stage:
     def _grounded(self, agent: str) -> GroundedAgent:
         release, uav = self.releases.get(agent, (ReleaseOn.START, ''))
         front, beyond_m = self.parted.get(agent, ('', 0.0))
+        release = ReleaseOn.WAITED if agent in self.waits_s else release
         return GroundedAgent(
             id=agent,
             type_name='car',
@@ -239,6 +242,7 @@ class Stage:
             release=ReleaseOn.PARTED if front else release,
             release_agent=front,
             release_beyond_m=beyond_m,
+            release_after_s=self.waits_s.get(agent, 0.0),
             release_uav=uav,
             release_mission=f'm{list(self.tracks).index(uav)}' if uav else '',
             drive_speed_mps=self.speeds.get(agent),

@@ -385,3 +385,10 @@ def test_numbers_of_events_have_no_gap(stage: Callable[..., Any]) -> None:
     numbers = [e.sequence for o in scene.outputs for e in o.events]
     assert numbers == list(range(len(numbers)))
     assert len(numbers) >= 4
+
+
+def test_who_waits_for_a_time_sets_off_when_it_is_over(stage: Callable[..., Any]) -> None:
+    scene = stage(waits_s={'ego': 3.0}, speeds={'ego': 7.0})
+    scene.step(80)
+    assert scene.commands()[1:] == [(0, 'ego', SET, 0.0), (60, 'ego', SET, 7.0)]
+    assert scene.notes(ScenarioEventKind.RELEASED) == [(60, 'ego', '')]
