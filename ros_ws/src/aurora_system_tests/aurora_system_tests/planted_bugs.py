@@ -321,6 +321,13 @@ def _leave_it_behind(executor: ScenarioExecutor) -> Stepper:
     return executor
 
 
+def _stand_back(executor: ScenarioExecutor) -> Stepper:
+    """Let nobody walk up to the kerb before he is told to cross."""
+    executor._held |= executor._walking_up.keys()
+    executor._walking_up.clear()
+    return executor
+
+
 def _after_the_ambulance(plan: UavPlan) -> UavPlan:
     document = plan.model_dump()
     for mission in document['missions']:
@@ -453,6 +460,13 @@ PLANTED = (
         'When a pedestrian steps onto the road, the ego car brakes.',
         with_runner(_TardyRunner),
         'condition:e2.within',
+    ),
+    _planted(
+        'sets off when he is to step onto the road',
+        'A pedestrian crosses the street at 20 seconds. A drone tracks the ego car.',
+        _stand_back,
+        'condition:e1.within',
+        'condition:e1.time',
     ),
     _planted(
         'goes on before the time is over',

@@ -52,7 +52,7 @@ from aurora_core.trace.roster import Roster, RosterEntry
 
 # Raised whenever the same states give other commands or records than before: what was recorded
 # with another version cannot be recomputed here.
-EXECUTOR_VERSION = 19
+EXECUTOR_VERSION = 20
 
 # Box of the multirotor in the roster (m): motor to motor with propellers, and its height.
 UAV_SIZE_M = (0.7, 0.7, 0.3)
@@ -194,6 +194,7 @@ def build_stepper(
             geometry=geometry,
             landing_clearance_m=limits.clearance_min_m + 1.0,
             arrival_m=tolerances.arrival_m,
+            crosswalk_m=tolerances.crosswalk_m,
             drive_m=tolerances.drive_distance_m,
             battery=BatteryRule(
                 endurance_s=limits.uav_endurance_s, touchdown_m=tolerances.touchdown_height_m
