@@ -450,10 +450,27 @@ def _cross(case: Case, agent: str, window: Window) -> Acted:
     why = f'{agent} is on the carriageway from {start:.2f} to {end:.2f} s'
     if early or (onset is None and start > window.last_s):
         return Acted(does_not(f'{why}, asked from {window.early_s:.2f} s'), start, end)
-    stood = onset is not None and not (moving[onset:a] == 0).any()
-    prompt_ = start <= window.last_s or stood
     ended = b < scene.recording.ticks
-    return Acted(graded(prompt_ and ended, True, why), start, end if ended else None)
+    if _waits_first(case, agent):
+        # Where he has waited he sets off, and gets to the kerb without a stop.
+        stood = onset is not None and not (moving[onset:a] == 0).any()
+        soon, late = start <= window.last_s or stood, False
+    else:
+        soon = start <= window.late_s + limits.STEP_S + STEPS * scene.dt_s
+        late = start > window.last_s + STEPS * scene.dt_s
+    return Acted(graded(soon and ended, not late, why), start, end if ended else None)
+
+
+def _waits_first(case: Case, agent: str) -> bool:
+    """Return whether somebody crosses when his own wait is over."""
+    return any(
+        r['kind'] == 'event'
+        and (r.get('action') or {}).get('do') == 'cross'
+        and (r.get('trigger') or {}).get('on') == 'behavior_done'
+        and (r.get('trigger') or {}).get('behavior') == 'wait'
+        and agent in case.bodies((r.get('trigger') or {}).get('who'))
+        for r in case.annotation.flat()
+    )
 
 
 def _yield(case: Case, agent: str, window: Window, others: tuple[str, ...]) -> Acted:

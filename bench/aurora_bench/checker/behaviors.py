@@ -26,7 +26,7 @@ from aurora_bench.checker.events import happened
 from aurora_bench.checker.lasting import lasting
 from aurora_bench.checker.numbers import Wanted, wanted
 from aurora_bench.checker.on_the_way import stated_between
-from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
+from aurora_bench.checker.pairs import APPROACHED_M, approach, follow, overtake, tailgate
 from aurora_bench.checker.paths import way
 from aurora_bench.checker.phases import missions_end_s
 from aurora_bench.checker.placements import AT_M, at_place
@@ -37,6 +37,8 @@ from aurora_bench.checker.scene import longest_s, runs_of, share
 MOVED_M = 10.0
 TURN_DEG = (60.0, 45.0)
 TURN_WITHIN_M = 45.0
+# Who goes to a place surely comes from elsewhere, surely does not (m nearer than before).
+COMES_M = (10.0, 5.0)
 # A bend is too tight where a speed would push passengers sideways like this.
 LATERAL_MPS2 = 4.0
 BEND_OVER_M = 10.0
@@ -153,7 +155,33 @@ def _heads_for(case: Case, body: str, target: str) -> Judged:
         surely = share(on) >= limits.FOLLOW_SHARE
         # Which street is a main road the contract leaves open.
         return graded(surely, bool(on.any()) or target.casefold() == 'main_road', why)
-    return approach(scene, body, target)
+    if scene.is_body(target) or _is_placed_at(case, body, target):
+        return approach(scene, body, target)
+    return _comes_to(case, body, target)
+
+
+def _is_placed_at(case: Case, body: str, place: str) -> bool:
+    """Return whether it is annotated that a body is at, near or before a place at t = 0."""
+    return any(
+        r['kind'] == 'placement'
+        and body in case.bodies(r.get('agent'))
+        and place in case.things(r.get('of'))
+        for r in case.annotation.flat()
+    )
+
+
+def _comes_to(case: Case, body: str, place: str) -> Judged:
+    """Return whether a body gets near a place from elsewhere: who is there has not gone there."""
+    scene = case.scene
+    places, xy = scene.places, scene.xy(body)[scene.present(body)]
+    away = places.distance(place, xy)
+    for spot in places.approaches(place):
+        away = np.minimum(away, np.linalg.norm(xy - spot.xy, axis=1))
+    nearer = np.maximum.accumulate(away) - away
+    there = away <= APPROACHED_M
+    gain = float(nearer[there].max(initial=0.0))
+    why = f'{body} gets {gain:.1f} m nearer to {place}, {away.min():.1f} m from it'
+    return graded(gain >= COMES_M[0], gain >= COMES_M[1], why)
 
 
 def _near(case: Case, body: str, targets: list[str], most: float) -> BoolArray:

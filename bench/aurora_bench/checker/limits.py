@@ -65,6 +65,8 @@ WIND_SHOWN_MPS, WIND_SHOWN_GUSTS = 1.0, 0.6
 # Capture follows within this after the ascent, apart from the way there (s).
 CAPTURE_S = 30.0
 ONSET_S = 1.0
+# Who steps onto the road at some moment does so within this time of it.
+STEP_S = 0.5
 ACTION_DONE_S = 2.0
 PHASE_SHOWS_S = 2.0
 STOPPED_MPS = 0.1

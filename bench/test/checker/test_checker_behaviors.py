@@ -199,6 +199,20 @@ def test_crossing_and_walking(make_stage: Any) -> None:
     assert car.says(_does('walk')) == 'does_not'
 
 
+@pytest.mark.parametrize(
+    ('from_x', 'to_x', 'outcome'),
+    [(60.0, 98.0, 'holds'), (99.0, 140.0, 'does_not'), (88.0, 95.0, 'cannot_tell'),
+     (20.0, 60.0, 'does_not')],
+)  # fmt: skip
+def test_who_goes_to_a_place_comes_from_elsewhere(
+    stage: Any, from_x: float, to_x: float, outcome: str
+) -> None:
+    """The crosswalk is at x = 100 m; who stands there and leaves has not walked to it."""
+    x = np.interp(stage.t, [5.0, 40.0], [from_x, to_x])
+    stage.ground('ped1', 'pedestrian', x, 4.5)
+    assert stage.says({**_does('walk', 'crosswalk'), 'agent': 'ped1'}) == outcome
+
+
 def test_changing_lane(make_stage: Any) -> None:
     for end, outcome in ((-4.95, 'holds'), (-1.65, 'does_not')):
         stage = make_stage()

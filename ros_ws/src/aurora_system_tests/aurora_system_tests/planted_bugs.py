@@ -328,6 +328,13 @@ def _leave_it_behind(executor: ScenarioExecutor) -> Stepper:
     return executor
 
 
+def _stand_back(executor: ScenarioExecutor) -> Stepper:
+    """Let nobody walk up to the kerb before he is told to cross."""
+    executor._held |= executor._walking_up.keys()
+    executor._walking_up.clear()
+    return executor
+
+
 def _after_the_ambulance(plan: UavPlan) -> UavPlan:
     document = plan.model_dump()
     for mission in document['missions']:
@@ -472,6 +479,13 @@ PLANTED = (
         'The drone follows the ego car. When it sees a truck, the ego car brakes hard.',
         with_agents(release=ReleaseOn.CAPTURED, release_uav='uav1', release_mission='m1'),
         'condition:e1.moving',
+    ),
+    _planted(
+        'sets off when he is to step onto the road',
+        'A pedestrian crosses the street at 20 seconds. A drone tracks the ego car.',
+        _stand_back,
+        'condition:e1.within',
+        'condition:e1.time',
     ),
     _planted(
         'goes on before the time is over',

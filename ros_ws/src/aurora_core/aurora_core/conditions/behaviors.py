@@ -9,10 +9,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from aurora_core.conditions.lasting import as_long, moves_for, stands_for, stated_distances
+from aurora_core.grounding.going import comes_to
 from aurora_core.grounding.places import has_point
 from aurora_core.judging.build import Inputs, Source, Target, Underivable, condition, number
 from aurora_core.judging.quantities import (
     at_place,
+    came_nearer,
     free_speed,
     placement,
     relation_fraction,
@@ -465,6 +467,8 @@ def _there(
         return  # for its time it stands there
     elif place is not None and has_point(place) and behavior.kind in _ANYWHERE:
         yield at_place.implied(inputs, agent, behavior, place, name)
+        if comes_to(agent, behavior):
+            yield came_nearer.implied(inputs, agent, behavior, place, name)
 
 
 def _stated_speed(

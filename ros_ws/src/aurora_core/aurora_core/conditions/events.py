@@ -43,6 +43,7 @@ from aurora_core.spec.events import (
 )
 from aurora_core.spec.flight_order import begun_by, climbs_last
 from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parking import crosses_from_wait
 from aurora_core.spec.scenario import (
     AgentAction,
     Event,
@@ -118,6 +119,9 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
     if event.delay_s is not None:
         delay_s, provenance = event.waits_s, event.delay_s.provenance
     latest_s = delay_s + inputs.tolerances.event_delay_s
+    if _steps_on(inputs, event):
+        # Who is to cross stands at the kerb by then.
+        latest_s = delay_s + inputs.tolerances.duration_s.of(delay_s, approximate=False)
     deadline_s = event.deadline_s
     if deadline_s is not None:
         latest_s = deadline_s
@@ -142,6 +146,12 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
         at = event.trigger.at_s
         if at.provenance is Provenance.EXPLICIT:
             yield event_time.at(inputs, event, at, delay_s, source)
+
+
+def _steps_on(inputs: Inputs, event: Event) -> bool:
+    """Tell whether an event is a step onto the carriageway by who stands at the kerb before."""
+    crosses = isinstance(event.action, AgentAction) and event.action.do == 'cross'
+    return crosses and not crosses_from_wait(inputs.spec, event)
 
 
 def _binds_before(inputs: Inputs, event: Event) -> bool:

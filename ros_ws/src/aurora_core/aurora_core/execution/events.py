@@ -14,11 +14,7 @@ from aurora_core.execution.lasting import Lasting
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.own_stops import OwnStops
 from aurora_core.execution.triggers import BatteryRule, Progress, holds
-from aurora_core.execution.untold import (
-    heard_before,
-    least_mps,
-    slowed_later,
-)
+from aurora_core.execution.untold import heard_before, least_mps, slowed_later
 from aurora_core.execution.ways import Ways
 from aurora_core.execution.yielding import Yielding
 from aurora_core.mission.machine import MissionMachine
@@ -70,6 +66,7 @@ class EventRunner:
         roster: Row order.
         links: Message links.
         arrival_m: An agent this close to a place is there.
+        crosswalk_m: A person this close to the outline of a crosswalk is there.
         battery: What its level is counted by.
         rules: When the actions of ground agents are complete.
         lanes: Orders changes of lane.
@@ -93,6 +90,7 @@ class EventRunner:
         roster: Roster,
         links: Sequence[MessageLink],
         arrival_m: float,
+        crosswalk_m: float | None,
         battery: BatteryRule,
         rules: ActionRules,
         lanes: LaneChanger,
@@ -136,7 +134,9 @@ class EventRunner:
         self._heard_before = heard_before(spec)
         self._over_from: dict[str, int] = {}
         self._touchdown_m = battery.touchdown_m
-        self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
+        self._progress = Progress(
+            arrival_m=arrival_m, crosswalk_m=crosswalk_m, endurance_s=battery.endurance_s
+        )
         self._watches = pair_watches(roster, events)
         self._progress.doing = doing_watches(spec, rules, roster.dt_s)
         self._progress.rests_s = {e.id: rest_s(spec, e, rules) for e in events}

@@ -213,9 +213,13 @@ def _followings(spec: ScenarioSpec, roster: Roster) -> Iterator[_Following]:
 def _companions(
     spec: ScenarioSpec, roster: Roster, agents: Sequence[GroundedAgent]
 ) -> Iterator[_Following]:
-    """Yield who keeps to whom on the lane beside: who is told no speed, else the faster one."""
+    """Yield who keeps to whom on the lane beside: who is told no speed, else the faster one.
+
+    A vehicle keeps to who walks beside it.
+    """
     top_mps = {agent.id: _top_mps(agent) for agent in agents}
-    drivers = {agent.id: agent for agent in spec.agents if agent.type not in _NO_DRIVERS}
+    bodies = {agent.id: agent for agent in spec.agents if agent.type is not AgentType.RSU}
+    drivers = {agent.id for agent in spec.agents if agent.type not in _NO_DRIVERS}
     acting = {
         event.action.agent
         for event in (*spec.events, *own_events(spec))
@@ -224,8 +228,12 @@ def _companions(
     for agent in spec.agents:
         for placed in agent.placements:
             sided = placed.relation in _BESIDE or _is_on_two_lanes(agent, placed)
-            pair = [drivers.get(name or '') for name in (agent.id, placed.of)]
-            free = [a for a in pair if a is not None and a.id not in acting and not _told(a)]
+            pair = [bodies.get(name or '') for name in (agent.id, placed.of)]
+            free = [
+                a
+                for a in pair
+                if a is not None and a.id in drivers and a.id not in acting and not _told(a)
+            ]
             if not sided or not placed.kept_in_motion or None in pair or not free:
                 continue
             rows = [roster.agent_index(a.id) for a in pair if a is not None]

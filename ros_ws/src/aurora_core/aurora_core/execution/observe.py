@@ -4,9 +4,12 @@
 
 from __future__ import annotations
 
+from math import inf
+
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.grounding.kerb import STEP_M
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.mission.machine import TargetMotion
 from aurora_core.quantities import instant
@@ -22,6 +25,9 @@ Point3 = tuple[float, float, float]
 # Plain numbers: members of an enum cost more to look up than what is done with them.
 _Z, _LANDED = int(UavColumn.Z), int(UavColumn.LANDED)
 _MOTION = slice(0, int(GroundColumn.SPEED) + 1)
+
+# What somebody is told shows after so many ticks.
+_TOLD_TICKS = 2
 
 
 class Observation:
@@ -120,6 +126,28 @@ class Observation:
         if point is None:
             return False
         return bool(self._geometry.surfaces(kind).contains(np.array([point[:2]]))[0])
+
+    def steps_off(self, row: int, dt_s: float) -> bool:
+        """Return whether the agent of a row is at the kerb: a street for vehicles begins there.
+
+        What it is told now shows after two ticks.
+        """
+        x, y, hx, hy, speed_mps = self._ground[row, _MOTION].tolist()
+        ahead_m = STEP_M + _TOLD_TICKS * dt_s * speed_mps
+        ahead = np.array([[x + ahead_m * hx, y + ahead_m * hy]])
+        return bool(self._geometry.surfaces(SurfaceKind.DRIVING).contains(ahead)[0])
+
+    def walks(self, body_id: str) -> bool:
+        """Tell whether a body is a person."""
+        row = self._roster.agent_index(body_id)
+        return row is not None and self._roster.agents[row].is_person
+
+    def crosswalk_m(self, body_id: str) -> float:
+        """Return how far a body is from the crosswalk (m), infinite where it is gone."""
+        point = self.position(body_id)
+        if point is None:
+            return inf
+        return float(self._geometry.crosswalk_distance(np.array([point[:2]]))[0])
 
     def motion(self, body_id: str) -> TargetMotion | None:
         """Return position, velocity and heading of a ground agent, None when it is gone."""

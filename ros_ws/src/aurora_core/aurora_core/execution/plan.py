@@ -196,6 +196,7 @@ def build_stepper(
             geometry=geometry,
             landing_clearance_m=limits.clearance_min_m + 1.0,
             arrival_m=tolerances.arrival_m,
+            crosswalk_m=tolerances.crosswalk_m,
             drive_m=tolerances.drive_distance_m,
             battery=BatteryRule(
                 endurance_s=limits.uav_endurance_s, touchdown_m=tolerances.touchdown_height_m

@@ -42,7 +42,12 @@ from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.prohibitions import keeps_on
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.commands import GroundCommand
-from aurora_core.trace.layout import UAV_COMMAND_WIDTH, GroundCommandKind, UavPhase
+from aurora_core.trace.layout import (
+    UAV_COMMAND_WIDTH,
+    GroundColumn,
+    GroundCommandKind,
+    UavPhase,
+)
 from aurora_core.trace.records import (
     EventRecord,
     LinkEventKind,
@@ -61,8 +66,12 @@ _GENTLY_MPS2 = 3.0
 # Who stops by itself, and nobody says for how long, stands for the rest of any run (s).
 _STANDS_S = 3600.0
 
-# Who walks up to a kerb is there when he is as near to it (m).
-_AT_KERB_M = 0.4
+# Who walks up to where he is to stand is there until he is so much beyond it (m), and no farther
+# beside it: two walk abreast.
+_BEYOND_M = 0.4
+_ABREAST_M = 1.5
+# And stands so far behind somebody who stands there already (m).
+_BEHIND_M = 1.5
 
 # Distance recorded for a transmission to or from a body that is gone (m).
 GONE_M = 1e6
@@ -75,6 +84,7 @@ class ExecutionSetup:
     Attributes:
         geometry: Solids and places of the world, the same that the monitor judges with.
         arrival_m: An agent this close to a place is there.
+        crosswalk_m: A person this close to the outline of a crosswalk is there.
         drive_m: Way after which an agent counts as having driven.
         battery: What the level of a UAV's battery is counted by.
         action_rules: When the actions of ground agents are complete.
@@ -94,6 +104,7 @@ class ExecutionSetup:
     geometry: WorldGeometry
     landing_clearance_m: float
     arrival_m: float
+    crosswalk_m: float | None
     drive_m: float
     battery: BatteryRule
     action_rules: ActionRules
@@ -120,6 +131,7 @@ class ScenarioExecutor:
         self._events: list[EventRecord] = []
         self._held = {i for i, a in enumerate(setup.agents) if a.release is not ReleaseOn.START}
         self._walking_up = {i: a.halt_xy_m for i, a in enumerate(setup.agents) if a.halt_xy_m}
+        self._behind: frozenset[int] = frozenset()
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
         self._ways = Ways(setup.spec, setup.drive_m)
@@ -217,6 +229,7 @@ class ScenarioExecutor:
             s.roster,
             s.links,
             s.arrival_m,
+            s.crosswalk_m,
             s.battery,
             s.action_rules,
             self._lanes(),
@@ -314,17 +327,39 @@ class ScenarioExecutor:
         return commands
 
     def _halts(self, tick: int, seen: Observation) -> list[GroundCommand]:
-        """Let persons who have walked to where they cross, or stop, stand there."""
-        commands = []
+        """Let persons who have walked to where they cross, or stop, stand there.
+
+        Who comes up behind one that stands there waits until he has gone on.
+        """
+        commands: list[GroundCommand] = []
         for index, (x_m, y_m) in sorted(self._walking_up.items()):
-            point = seen.position(self._setup.agents[index].id)
-            if point is not None and norm2(point[0] - x_m, point[1] - y_m) <= _AT_KERB_M:
+            if index in self._held or seen.position(self._setup.agents[index].id) is None:
+                continue
+            there = _is_there(seen.ground(index), x_m, y_m) or seen.steps_off(index, self._dt_s)
+            stands, waits = index in self._behind, not there and self._is_behind(index, seen)
+            if there:
                 del self._walking_up[index]
                 self._standing.begins(index, tick)
-                commands.append(
-                    GroundCommand(agent=index, kind=GroundCommandKind.SET_SPEED, value=0.0)
-                )
+            if (there or waits) and not stands:
+                kind = GroundCommandKind.SET_SPEED
+                commands.append(GroundCommand(agent=index, kind=kind, value=0.0))
+            elif stands and not (there or waits):
+                commands.append(self._drives(index))
+            self._behind = self._behind | {index} if waits else self._behind - {index}
         return commands
+
+    def _is_behind(self, index: int, seen: Observation) -> bool:
+        """Tell whether somebody stands in the way of a person who walks up to a place."""
+        x, y, hx, hy = seen.ground(index)[: GroundColumn.HEADING_Y + 1].tolist()
+        for other, agent in enumerate(self._setup.agents):
+            if other == index or not agent.is_person or other in self._walking_up:
+                continue
+            state = seen.ground(other)
+            to_x, to_y = float(state[GroundColumn.X]) - x, float(state[GroundColumn.Y]) - y
+            near = norm2(to_x, to_y) <= _BEHIND_M and to_x * hx + to_y * hy > 0.5 * _BEHIND_M
+            if near and state[GroundColumn.SPEED] < self._setup.action_rules.stop_mps:
+                return True
+        return False
 
     def _stood(self, tick: int) -> list[GroundCommand]:
         """Let go on who has stood for its time."""
@@ -440,6 +475,13 @@ class ScenarioExecutor:
         return (
             idle and self._runner.done and self._destinations.all_reached() and self._lasting.done
         )
+
+
+def _is_there(state: FloatArray, x_m: float, y_m: float) -> bool:
+    """Tell whether a person (GROUND_WIDTH,) has walked up to abreast of a point."""
+    x, y, hx, hy = state[: GroundColumn.HEADING_Y + 1].tolist()
+    to_go_m = (x_m - x) * hx + (y_m - y) * hy
+    return -_BEYOND_M <= to_go_m <= 0.0 and norm2(x_m - x, y_m - y) <= _ABREAST_M
 
 
 def _is_as_far(agent: GroundedAgent, seen: Observation) -> bool:

@@ -28,6 +28,7 @@ from aurora_core.spec.scenario import (
     TimeTrigger,
     VisibilityTrigger,
 )
+from aurora_core.spec.vocabulary import Place
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,6 +49,7 @@ class Progress:
     """What has happened so far, for triggers that follow other events."""
 
     arrival_m: float  # an agent this close to a place is there
+    crosswalk_m: float | None = None  # a person this close to the outline of a crosswalk
     endurance_s: float = inf  # of a full battery
     airborne_ticks: dict[str, int] = field(default_factory=dict)  # by UAV id
     begun_tick: dict[str, int] = field(default_factory=dict)  # its action has set in
@@ -125,6 +127,9 @@ def _state_holds(
     if isinstance(trigger, ArrivalTrigger):
         if arrives_on_sidewalk(trigger):
             return observation.is_on(SurfaceKind.SIDEWALK, trigger.who)
+        near_m, crosswalk = progress.crosswalk_m, trigger.place == Place.CROSSWALK
+        if near_m is not None and crosswalk and observation.walks(trigger.who):
+            return observation.crosswalk_m(trigger.who) <= near_m
         distance = observation.distance_m(trigger.who, trigger.place, on_road=True)
         return distance is not None and distance <= progress.arrival_m
     if not _looks(trigger, observation, progress):

@@ -109,12 +109,16 @@ class ConvoyStyles:
     def leads_mps(self, agent: GroundAgent) -> float | None:
         """Return how fast one without a stated speed drives ahead of who has one (m/s).
 
-        None where nobody with a stated speed keeps an exact distance behind it.
+        So it does ahead of who is slower by himself, a cyclist. None where nobody of the kind
+        keeps an exact distance behind it.
         """
         agents = {a.id: a for a in self._spec.agents}
         followers = [agents[name] for name in self._led.get(agent.id, ())]
         spec, settings = self._spec, self._settings.grounding.speeds
         speeds = [stated_speed_mps(spec, other, settings) for other in followers]
+        desired = (self._types[other.type.value].desired_speed_mps for other in followers)
+        pace_mps = self._factor * self._limit_mps
+        speeds += [speed for speed in desired if speed is not None and speed < pace_mps]
         stated = [speed for speed in speeds if speed is not None]
         if not stated or own_speed_mps(agent) is not None:
             return None
@@ -305,6 +309,7 @@ class ConvoyStyles:
             if other.arc_m < seat.arc_m and other.path.edge_ids == seat.path.edge_ids
         ]
         paced = {b.target for b in seat.agent.behaviors if b.kind in PACED}
+        paced |= {gap.leader for gap in self._gaps if gap.exact and gap.follower == seat.agent.id}
         ahead_mps = [own_speed_mps(a) or 0.0 for a in self._spec.agents if a.id in paced]
         most = min(_BRISK, max([desired_mps, *behind_mps, *ahead_mps]) / desired_mps)
         return {'speed_factor': max(factor, min(most, factor * self._limit_mps / desired_mps))}

@@ -125,6 +125,13 @@ def met_persons(spec: ScenarioSpec) -> tuple[tuple[GroundAgent, str, float], ...
     return tuple(sorted(found, key=lambda one: -one[2]))
 
 
+def met_m(spec: ScenarioSpec, person: GroundAgent, vehicle: GroundAgent) -> Iterator[float]:
+    """Yield how far ahead of a vehicle a person is that it is to come near, metres."""
+    for met, other, within_m in met_persons(spec):
+        if met.id == person.id and other == vehicle.id:
+            yield within_m + encounter_room_m(own_speed_mps(vehicle))
+
+
 def partings(spec: ScenarioSpec) -> tuple[frozenset[str], ...]:
     """Return the pairs of vehicles that an event waits for to get far from each other."""
     vehicles = {a.id for a in spec.agents if a.type is not AgentType.PEDESTRIAN}

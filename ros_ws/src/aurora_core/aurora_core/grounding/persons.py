@@ -16,19 +16,33 @@ from aurora_core.grounding import walk_ends
 from aurora_core.grounding.awaited import awaited_at, bound_to_places
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.distances import DEFAULT_GAP_M
-from aurora_core.grounding.going import arrives_from_m, aside_of_walkers_m, crosses, goes
-from aurora_core.grounding.kerb import parked_pose
+from aurora_core.grounding.going import (
+    arrives_from_m,
+    aside_of_walkers_m,
+    awaits_its_moment,
+    crosses,
+    does_at_a_place,
+    goes,
+    heads_for,
+    keeps_beside,
+)
+from aurora_core.grounding.kerb import STEP_M, parked_pose, steps_off_m
 from aurora_core.grounding.nearby import ALONG, SIDES, by_vehicles, in_order
-from aurora_core.grounding.pace import encounter_room_m, met_persons, own_speed_mps
+from aurora_core.grounding.pace import met_m, own_speed_mps
 from aurora_core.grounding.parked import parked_boxes, walks_into
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import Release, person_release
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sidewalk_spots import (
+    COMES_M,
     Spot,
+    abreast_of,
     at_distance,
+    beyond_m,
     nearest_spot,
+    off_it_m,
     off_m,
+    walked_up_to,
     walks_to,
 )
 from aurora_core.grounding.sites import (
@@ -39,7 +53,16 @@ from aurora_core.grounding.sites import (
     line_from,
 )
 from aurora_core.grounding.stepping_out import FarKerb, names_crosswalk, steps_out
-from aurora_core.grounding.walk_ends import KERB_M, NEXT_M, arrival_m, halt_m, rests_at, walks_up_m
+from aurora_core.grounding.walk_ends import (
+    KERB_M,
+    NEXT_CROSSES_M,
+    NEXT_M,
+    WALKS_M,
+    arrival_m,
+    halt_m,
+    rests_at,
+    walks_up_m,
+)
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -47,7 +70,6 @@ from aurora_core.knowledge.map_records import WalkTable
 from aurora_core.knowledge.settings import PersonSettings
 from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
-from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.parking import (
     crosses_after_stop,
     crosses_rested,
@@ -66,11 +88,11 @@ _OFF_M = 1.5
 # Steps in which a spot at a stated distance is looked for (m).
 _STEP_M = 0.5
 
+# Who walks beside a vehicle has so much of the sidewalk ahead, or what his run takes (m).
+_BESIDE_WAY_M = 60.0
+
 # So far the way of a person is looked at for parked vehicles (m).
 _SHORT_WAY_M = 60.0
-
-# Who stands behind a vehicle is so far from its bumper (m).
-_STANDS_BEHIND_M = 2.0
 
 # Vehicles have at least this way to a crosswalk that a person uses, and at most that (m).
 _CROSSWALK_AHEAD_M = (20.0, 120.0)
@@ -171,8 +193,8 @@ class PersonPlacer:
             free = path.begins_m is not None
             stays = free or not goes(spec, agent)
             mps = own_speed_mps(agent) or self._style.walking_mps
-            halts = halt_m(site, seat, walks_up_m(spec, agent, mps), self._map.network)
-            rested = crosses_rested(spec, agent)
+            rested, awaits = crosses_rested(spec, agent), awaits_its_moment(spec, agent)
+            halts = halt_m(seat, self._map.network) if rested or awaits else None
             release = person_release(spec, agent) if rested or halts is None else Release()
             goal_m = self._map.network.lane(path.goal_lane_id).arc_length_m
             arrival = arrival_m(site, seat, goal_m, crosses=crosses(spec, agent))
@@ -189,7 +211,7 @@ class PersonPlacer:
                 edges=path.edge_ids[:1] if stays else path.edge_ids,
                 route_xy_m=line_from(path, seat.arc_m),
                 lane_id=path.lane_id,
-                lane_position_m=(path.begins_m or 0.0) + seat.arc_m,
+                lane_position_m=seat.arc_m if path.begins_m is None else path.begins_m,
                 x_m=x,
                 y_m=y,
                 heading_x=hx,
@@ -232,11 +254,13 @@ class PersonPlacer:
             placed = self._at_place(spec, agent, site, number)
         if placed is None:
             return 'sidewalk'
-        if not goes(spec, agent):
-            return placed
-        if stops_for_good(agent):
+        if not goes(spec, agent) or stops_for_good(agent):
             return placed
         way_m = (own_speed_mps(agent) or self._style.walking_mps) * run_s
+        if keeps_beside(spec, agent):
+            # Over the next street no vehicle goes with him.
+            left_m = self._map.network.lane(placed.path.lane_id).arc_length_m - placed.arc_m
+            return placed if left_m >= min(way_m, _BESIDE_WAY_M) else 'sidewalk'
         return self._onward(placed, way_m)
 
     def _over_street(
@@ -252,7 +276,10 @@ class PersonPlacer:
         if not isinstance(placed, Spot):
             return placed or 'sidewalk'
         way = self._kerbs.way(placed.path, placed.arc_m)
-        return 'far_kerb' if way is None else Spot(way, 0.0)
+        if way is None:
+            return 'far_kerb'
+        kerb_m = steps_off_m(self._map.network, way) if awaits_its_moment(spec, agent) else None
+        return Spot(way, 0.0 if kerb_m is None else max(0.0, kerb_m - STEP_M))
 
     def _crossing(
         self, site: Site, placed: Spot | str | None, number: int, back_m: float, up_m: float
@@ -275,8 +302,8 @@ class PersonPlacer:
             return Spot(path, placed.arc_m) if same and near else 'crosswalk'
         if site.seated and not self._ahead(site, path.line.at(first.arc_length_m)[:2]):
             return 'crosswalk'
-        begin_m = first.arc_length_m - back_m - NEXT_M * number
-        if begin_m < 0.0 and back_m > KERB_M:
+        begin_m = first.arc_length_m - back_m - NEXT_CROSSES_M * number
+        if begin_m < (COMES_M if up_m > 0.0 else 0.0) and max(back_m, up_m) > KERB_M:
             return 'crosswalk'
         return Spot(path, max(0.0, begin_m - up_m))
 
@@ -304,7 +331,7 @@ class PersonPlacer:
                 continue
             stated = placement.distance_m
             told = is_stated(stated)
-            if not told and placement.relation in _BEFORE_IT and _does_at_a_place(agent):
+            if not told and placement.relation in _BEFORE_IT and does_at_a_place(agent):
                 continue  # which is ahead of the vehicles
             left = placement.relation is Relation.LEFT
             aside = placement.relation in SIDES and isinstance(seat, SeatedAgent)
@@ -313,17 +340,20 @@ class PersonPlacer:
                 most_m = _OFF_M if aside else off_m(stated, self._tolerances)
                 return self._so_near(seat, aimed_m, most_m, left=left) or 'sidewalk'
             sign = ALONG[placement.relation]
-            away_m = sign * (stated.value if told and stated else self._near_m(seat, stated))
+            length_m = self._types[seat.agent.type.value].length_m
+            away_m = sign * (stated.value if told and stated else off_it_m(seat, length_m, stated))
             if sign > 0.0 and not told and isinstance(seat, SeatedAgent):
-                away_m = max([away_m, *_met_m(spec, agent, seat)])
+                away_m = max([away_m, *met_m(spec, agent, seat.agent)])
             if isinstance(seat, SeatedPerson) and sign == 0.0:
-                return self._abreast_of(seat, placement.relation)
+                return abreast_of(
+                    self._map.network, seat, placement.relation, self._style.abreast_m
+                )
             return self._along(seat, away_m, 0, left=left) or 'sidewalk'
         elsewhere = any(p.relation is not Relation.ON for p in agent.placements)
         if elsewhere or bound_to_places(spec, agent) or crosses(spec, agent):
             return None
         for seat in site.seated:
-            for away_m in _met_m(spec, agent, seat):
+            for away_m in met_m(spec, agent, seat.agent):
                 return self._along(seat, away_m, number) or 'sidewalk'
         return None
 
@@ -340,30 +370,6 @@ class PersonPlacer:
                 if norm2(x - to_x, y - to_y) > most_m:
                     return False
         return True
-
-    def _abreast_of(self, seat: SeatedPerson, relation: Relation) -> Spot:
-        """Return the spot beside a person, in the same walk."""
-        abreast_m = self._style.abreast_m
-        side_m = abreast_m if relation is not Relation.RIGHT else -abreast_m
-        width_m = self._map.network.lane(seat.path.lane_id).width_m
-        lateral_m = seat.lateral_m + side_m
-        free = relation not in (Relation.LEFT, Relation.RIGHT)
-        if free and abs(lateral_m) > 0.5 * width_m - KERB_M:
-            lateral_m = seat.lateral_m - side_m
-        return Spot(seat.path, seat.arc_m, lateral_m)
-
-    def _near_m(self, seat: SeatedAgent | SeatedPerson, free: Parameter | None) -> float:
-        """Return how far from another agent somebody is of whom nobody says it (m).
-
-        `free` is what stands for it where nothing is known better.
-
-        Who stands behind a vehicle that stands is right behind it.
-        """
-        if not stands(seat.agent) and not any(
-            p.relation is Relation.PARKED_AT for p in seat.agent.placements
-        ):
-            return DEFAULT_GAP_M if free is None else free.value
-        return self._types[seat.agent.type.value].length_m / 2.0 + _STANDS_BEHIND_M
 
     def _so_near(
         self,
@@ -437,8 +443,9 @@ class PersonPlacer:
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
         names += [trigger.place for trigger in arrivals(spec, agent)]
-        # Who is to arrive somewhere walks there from a little way off, who rests there from more.
-        from_m, rests = arrives_from_m(spec, agent), rests_at(spec, agent)
+        # Who is to arrive somewhere walks there from a little way off, who goes there from more.
+        rests, heads = rests_at(spec, agent), heads_for(agent)
+        from_m = arrives_from_m(spec, agent) or KERB_M
         stated = {
             p.of: max(0.0, p.distance_m.inside(self._style.inside_bound_m))
             for p in agent.placements
@@ -455,44 +462,37 @@ class PersonPlacer:
                 if path is None:
                     return None
                 lane = self._map.network.lane(path.lane_id)
-                back_m = NEXT_M * number + ((name != rests and from_m) or KERB_M)
+                back_m = max(WALKS_M, from_m) if name == heads else from_m
+                back_m = NEXT_M * number + (KERB_M if name == rests else back_m)
                 walk = walk_along(self._map.network, path.edge_ids[:1])
                 if walk is None:
                     return None
                 aside_m = aside_of_walkers_m(spec, agent)
                 spot = Spot(walk, max(0.0, lane.arc_length_m - back_m), aside_m)
-                return walks_to(self._map.network, spot) if name == rests else spot
+                if name == rests:
+                    spot = walks_to(self._map.network, spot)
+                short = lane.arc_length_m - spot.arc_m < COMES_M
+                return None if name == heads and short else spot
             if name is not None and has_point(name):
                 there = self._places.point(name, (x, y))
                 near = nearest_spot(self._map.network, there, number)
+                if name == heads:
+                    most_m = self._tolerances.arrival_m - 1.0
+                    near = walked_up_to(self._map.network, there, most_m) or near
                 if near is not None and name == rests:
-                    return walks_to(self._map.network, near, self._beyond_m(near, there))
-                if near is None or from_m is None:
+                    most_m = beyond_m(near, there, self._tolerances.arrival_m)
+                    return walks_to(self._map.network, near, most_m)
+                back_m = max(WALKS_M, from_m) if name == heads else from_m
+                if near is None or back_m <= KERB_M:
                     return near
-                return replace(near, arc_m=max(0.0, near.arc_m - from_m))
+                return replace(near, arc_m=max(0.0, near.arc_m - back_m))
         if site.seated:
             front = max(site.seated, key=lambda s: s.arc_m)
             return self._along(front, DEFAULT_GAP_M, number)
         return nearest_spot(self._map.network, (x, y), number)
-
-    def _beyond_m(self, spot: Spot, place: tuple[float, float]) -> float:
-        """Return how far beyond a spot one is still at the place that it is next to (m)."""
-        x, y, _, _ = spot.path.position_at(spot.arc_m)
-        return max(0.0, self._tolerances.arrival_m - norm2(place[0] - x, place[1] - y) - 1.0)
 
     def _onward(self, spot: Spot, way_m: float) -> Spot | str:
         """Return a walk that goes on along the street for a way (m)."""
         edges = self._finder.straight_route(spot.path.edge_ids[0], spot.arc_m + way_m)
         path = walk_along(self._map.network, edges) if edges else None
         return 'sidewalk' if path is None else replace(spot, path=path)
-
-
-def _met_m(spec: ScenarioSpec, person: GroundAgent, seat: SeatedAgent) -> Iterator[float]:
-    """Yield how far ahead of a vehicle a person is that it is to come near, metres."""
-    for met, other, within_m in met_persons(spec):
-        if met.id == person.id and other == seat.agent.id:
-            yield within_m + encounter_room_m(own_speed_mps(seat.agent))
-
-
-def _does_at_a_place(person: GroundAgent) -> bool:
-    return any(has_point(b.target) for b in person.behaviors)

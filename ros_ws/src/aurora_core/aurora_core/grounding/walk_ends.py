@@ -4,17 +4,21 @@
 
 from __future__ import annotations
 
+from aurora_core.grounding.going import heads_for
+from aurora_core.grounding.kerb import STEP_M, steps_off_m
 from aurora_core.grounding.pace import stated_times_s
 from aurora_core.grounding.places import has_point
 from aurora_core.grounding.sites import SeatedPerson, Site
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.spec.parking import crosses_rested, stops_for_good, stops_for_s
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.vocabulary import MOVING, BehaviorKind, Place
 
 # Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
 KERB_M = 0.6
 NEXT_M = 1.0
+# Round the corner to a crosswalk the next one is so far behind (m).
+NEXT_CROSSES_M = 1.6
 
 # Who has crossed walks on this far (m), out of the way of the next one; who is said to walk, too,
 # goes so far in all: farther than shows that it does.
@@ -31,7 +35,8 @@ _EARLY_S = 2.0
 def rests_at(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
     """Return the place that a person walks to and rests at, None without one.
 
-    Who stops because of something does so wherever that comes.
+    Who stops because of something does so wherever that comes. Who is only to go there ends there,
+    unless he is to walk for some time.
     """
     told = any(
         isinstance(e.action, AgentAction)
@@ -40,7 +45,11 @@ def rests_at(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
         for e in spec.events
     )
     stops = (b.target for b in agent.behaviors if b.kind is BehaviorKind.STOP)
-    return None if told else next((place for place in stops if has_point(place)), None)
+    rests = next((place for place in stops if has_point(place)), None)
+    if told or rests is not None:
+        return None if told else rests
+    lasts = any(b.duration_s is not None and b.kind in MOVING for b in agent.behaviors)
+    return None if lasts else heads_for(agent)
 
 
 def arrival_m(site: Site, seat: SeatedPerson, goal_m: float, *, crosses: bool) -> float:
@@ -85,10 +94,11 @@ def walks_up_m(spec: ScenarioSpec, agent: GroundAgent, walking_mps: float) -> fl
     "Walks on the sidewalk and crosses at 25 s": until then he walks. Who rests before he crosses
     has walked up to there.
     """
+    comes_m = WALKS_M if heads_for(agent) == Place.CROSSWALK else 0.0
     if crosses_rested(spec, agent):
         return WALKS_M
     if all(b.kind is not BehaviorKind.WALK for b in agent.behaviors):
-        return 0.0
+        return comes_m
     times_s = stated_times_s(spec)
     due_s = [
         times_s[e.id] + e.waits_s
@@ -97,20 +107,20 @@ def walks_up_m(spec: ScenarioSpec, agent: GroundAgent, walking_mps: float) -> fl
         and isinstance(e.action, AgentAction)
         and (e.action.agent, e.action.do) == (agent.id, 'cross')
     ]
-    return walking_mps * max(0.0, min(due_s, default=0.0) - _EARLY_S)
+    return walking_mps * max(0.0, min(due_s) - _EARLY_S) if due_s else comes_m
 
 
-def halt_m(site: Site, seat: SeatedPerson, walks_m: float, network: RoadNetwork) -> float | None:
-    """Return where on the way over a crosswalk one waits who has walked up to it (m).
+def halt_m(seat: SeatedPerson, network: RoadNetwork) -> float | None:
+    """Return where on the way over a crosswalk one waits who walks up to the kerb (m).
 
-    None for who stands there from the beginning, or crosses where no crosswalk is.
+    That is right before it gets onto the carriageway. None for who is there from the beginning, or
+    crosses where no crosswalk is.
     """
     path = seat.path
-    if walks_m <= 0.0 or path.crossing_id is None:
+    kerb_m = None if path.crossing_id is None else steps_off_m(network, path)
+    if kerb_m is None:
         return None
-    ahead = [w for w in site.walkers if w.path.lane_id == path.lane_id and w.arc_m > seat.arc_m]
-    end_m = network.lane(path.lane_id).arc_length_m - KERB_M - NEXT_M * len(ahead)
-    return end_m if end_m > seat.arc_m else None
+    return kerb_m - STEP_M if kerb_m - STEP_M > seat.arc_m else None
 
 
 def stopping_m(

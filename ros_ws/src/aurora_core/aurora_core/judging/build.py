@@ -14,8 +14,8 @@ from aurora_core.outcomes.condition import Condition, EventTolerances, Op
 from aurora_core.outcomes.schedule import AgentFacts, MissionFacts, PlanFacts
 from aurora_core.quantities.actions import action_rules
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import AgentType
+from aurora_core.spec.scenario import AgentAction, ArrivalTrigger, GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType, Place
 from aurora_core.stl.syntax import format_number
 
 
@@ -105,10 +105,26 @@ class Inputs:
                 brake_mps2=tolerances.brake_mps2,
                 onset_mps2=tolerances.onset_mps2,
                 arrival_m=tolerances.arrival_m,
-                actions=action_rules(tolerances),
+                crosswalk_m=tolerances.crosswalk_m if _walks_to_crosswalk(self.spec) else None,
+                actions=action_rules(tolerances, steps_on=_somebody_crosses(self.spec)),
                 statistics_from=tolerances.link_statistics_from,
             ),
         }
+
+
+def _somebody_crosses(spec: ScenarioSpec) -> bool:
+    """Tell whether an event lets somebody cross a street."""
+    actions = (event.action for event in spec.events)
+    return any(isinstance(action, AgentAction) and action.do == 'cross' for action in actions)
+
+
+def _walks_to_crosswalk(spec: ScenarioSpec) -> bool:
+    """Tell whether an event waits for a person to reach a crosswalk."""
+    persons = {agent.id for agent in spec.agents if agent.type is AgentType.PEDESTRIAN}
+    return any(
+        isinstance(t, ArrivalTrigger) and t.place == Place.CROSSWALK and t.who in persons
+        for t in (event.trigger for event in spec.events)
+    )
 
 
 # Of the conditions that no prompt has to ask for.

@@ -296,6 +296,7 @@ class Context:
         rules = EventRules(
             brake_mps2=moments.brake_mps2 if moments is not None else 0.0,
             arrival_m=moments.arrival_m if moments is not None else 0.0,
+            crosswalk_m=moments.crosswalk_m if moments is not None else None,
             onset_mps2=moments.onset_mps2 if moments is not None else 0.0,
             actions=moments.actions if moments is not None else None,
             flights=flights,

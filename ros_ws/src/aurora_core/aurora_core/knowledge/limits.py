@@ -185,6 +185,8 @@ class Tolerances(_Table):
     traffic_least: NotNegative  # vehicles
     traffic_share: Range  # of these, on average over the run
     arrival_m: NotNegative  # an agent this close to a place is there
+    # a person this close to the outline of a crosswalk has reached it; before: as any other place
+    crosswalk_m: NotNegative | None = omitted(None)
     near_m: NotNegative  # "near" without a distance
     lane_offset_m: NotNegative  # offset inside one lane
     free_road_m: NotNegative  # with no leader or junction so near a driver keeps its speed

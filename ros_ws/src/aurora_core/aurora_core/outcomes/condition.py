@@ -153,6 +153,8 @@ class EventTolerances(Document):
         brake_mps2: Loss of speed that counts as braking.
         onset_mps2: Change of speed that counts as slowing down or speeding up.
         arrival_m: Distance from a place at which an agent is there.
+        crosswalk_m: Distance from the outline of a crosswalk at which a person is there; None: as
+            of any other place.
         actions: When the actions of ground agents are complete.
         statistics_from: Attempts before a link's losses are compared with its model.
     """
@@ -160,6 +162,7 @@ class EventTolerances(Document):
     brake_mps2: FiniteFloat
     onset_mps2: FiniteFloat
     arrival_m: FiniteFloat
+    crosswalk_m: FiniteFloat | None = omitted(None)
     actions: ActionRules | None = omitted(None)
     statistics_from: int
 

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import FiniteFloat
 
-from aurora_core.document import Document
+from aurora_core.document import Document, omitted
 from aurora_core.knowledge.limits import Tolerance, Tolerances
 from aurora_core.spec.events import AgentAction, Event, EventDoneTrigger
 from aurora_core.spec.parameter import Bound, Parameter
@@ -69,6 +69,8 @@ class ActionRules(Document):
         gain_mps: What `accelerate` without a number adds to the speed at the trigger.
         speed_mps: Tolerance on a speed to be reached: at least this ...
         speed_share: ... or this share of it.
+        steps_on: Who crosses begins with the first step onto the carriageway; recorded before, it
+            was with the first one towards it.
     """
 
     stop_mps: FiniteFloat
@@ -78,6 +80,7 @@ class ActionRules(Document):
     gain_mps: FiniteFloat
     speed_mps: FiniteFloat
     speed_share: FiniteFloat
+    steps_on: bool = omitted(False)
 
 
 def takes_time(action: AgentAction) -> bool:
@@ -115,8 +118,8 @@ def rest_s(spec: ScenarioSpec, event: Event, rules: ActionRules | None) -> float
     return rules.stop_hold_s if lasts is None else max(rules.stop_hold_s, stands_s(lasts))
 
 
-def action_rules(tolerances: Tolerances) -> ActionRules:
-    """Return what actions are measured with under these tolerances."""
+def action_rules(tolerances: Tolerances, *, steps_on: bool = False) -> ActionRules:
+    """Return what actions are measured with; `steps_on`: an event lets somebody cross."""
     return ActionRules(
         stop_mps=tolerances.stop_speed_mps,
         stop_hold_s=tolerances.stop_hold_s,
@@ -125,6 +128,7 @@ def action_rules(tolerances: Tolerances) -> ActionRules:
         gain_mps=tolerances.speed_gain_mps,
         speed_mps=tolerances.action_speed_mps.absolute,
         speed_share=tolerances.action_speed_mps.relative,
+        steps_on=steps_on,
     )
 
 

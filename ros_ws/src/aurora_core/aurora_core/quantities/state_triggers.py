@@ -65,6 +65,8 @@ class EventRules:
     Attributes:
         brake_mps2: Loss of speed that counts as braking.
         arrival_m: Distance from a place at which an agent is there.
+        crosswalk_m: Distance from the outline of a crosswalk at which a person is there; None: as
+            of any other place.
         onset_mps2: Change of speed with which slowing down or speeding up begins.
         actions: When the actions of ground agents are complete; None where no event is judged.
         flights: Phases of each UAV's flight.
@@ -82,6 +84,7 @@ class EventRules:
     captured: Callable[[str, str | None], int | None]
     links: tuple[LinkModel, ...]
     touchdown_m: float = 0.0
+    crosswalk_m: float | None = None
 
 
 def trigger_series(
@@ -137,5 +140,10 @@ def trigger_series(
         case ArrivalTrigger():
             if view.geometry.place_point(trigger.place) is None:
                 return None
+            walks = view.body(trigger.who).entry.is_person
+            if rules.crosswalk_m is not None and walks and trigger.place == Place.CROSSWALK:
+                points = view.reference(trigger.who)[:, :2]
+                apart = view.geometry.crosswalk_distance(points)
+                return (apart <= rules.crosswalk_m) & view.present(trigger.who)
             apart = motion.distance(view, trigger.who, trigger.place, on_road=True)
             return (apart <= rules.arrival_m) & view.present(trigger.who)

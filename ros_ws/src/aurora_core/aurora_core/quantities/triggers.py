@@ -43,6 +43,7 @@ from aurora_core.quantities.state_triggers import (
 from aurora_core.quantities.ticks import first_tick, onset_tick, whole_ticks
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
+from aurora_core.spec.parking import crosses_from_wait
 from aurora_core.spec.scenario import (
     AgentAction,
     BehaviorDoneTrigger,
@@ -254,6 +255,8 @@ class EventTimes:
         if isinstance(event.action, AgentAction):
             # Without a trigger it has to be seen: who stands all along has not stopped.
             done = event.trigger is not None
+            if event.action.do == 'cross':
+                return self._crosses(event, event.action, start)
             return self._agent_action(
                 event.action, start, begins_there=begins_there, may_hold=done
             )
@@ -310,13 +313,22 @@ class EventTimes:
         if action.do in ('start', 'accelerate'):
             gain = -motion.deceleration(self.view, body)
             return onset_tick(gain >= self.rules.onset_mps2, start, begins_there=begins_there)
-        if action.do == 'change_lane':
-            return change_begins(self.view, body, start, action.side)
+        return change_begins(self.view, body, start, action.side)
+
+    def _crosses(self, event: Event, action: AgentAction, start: int) -> int | None:
+        """Return when a person crosses: with the first step onto the carriageway.
+
+        Whose wait is over does so with the first step towards it, and so did everybody in what
+        was recorded before.
+        """
+        rules = self.rules.actions
         steps = first_tick(self._steps_on(action.agent), start)
         if steps is None or rules is None:
             return steps
-        # Who stood at the kerb begins to cross with the first step towards the carriageway.
+        if rules.steps_on and not crosses_from_wait(self.spec, event):
+            return steps
         before = max(0, start - 1)
+        speed = motion.speed(self.view, self.view.body(action.agent))
         stood = np.flatnonzero(speed[before:steps] < rules.stop_mps)
         return before + int(stood[-1]) + 1 if len(stood) else steps
 

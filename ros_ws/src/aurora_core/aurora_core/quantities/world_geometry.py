@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.geometry.kernel import norm2, norm2_array
 from aurora_core.geometry.obstacles import ObstacleField
 from aurora_core.geometry.polygon import Polygon, PolygonSet
 from aurora_core.geometry.prism import Prism
@@ -17,8 +18,12 @@ from aurora_core.geometry.sight_line import SightLine
 from aurora_core.knowledge.map_types import Building
 from aurora_core.knowledge.world import SurfaceKind, WorldModel
 from aurora_core.spec.reference import APPROACH, LANDMARK, is_landmark
+from aurora_core.spec.vocabulary import Place
 
 FloatArray = npt.NDArray[np.float64]
+
+# Nobody asks for a greater distance from a crosswalk (m).
+_FAR_M = 1000.0
 
 
 class WorldGeometry:
@@ -95,6 +100,29 @@ class WorldGeometry:
             )
             for kind in SurfaceKind
         }
+
+    def crosswalk_distance(self, xy: FloatArray) -> FloatArray:
+        """Return the distance (T,) of points (T, 2) from the crosswalk of the scenario, metres.
+
+        0 on it; of a world without the outline of one, that from its middle.
+        """
+        if self._crosswalk is not None:
+            return np.maximum(0.0, self._crosswalk.signed_distance(xy, _FAR_M))
+        x, y = self.place_point(Place.CROSSWALK) or (np.inf, np.inf)
+        return norm2_array(xy[:, 0] - x, xy[:, 1] - y)
+
+    @cached_property
+    def _crosswalk(self) -> PolygonSet | None:
+        point = self.place_point(Place.CROSSWALK)
+        rings = [
+            np.asarray(surface.ring, dtype=np.float64)
+            for surface in self.world.surfaces
+            if surface.kind is SurfaceKind.CROSSING
+        ]
+        if point is None or not rings:
+            return None
+        near = min(rings, key=lambda ring: norm2(*(ring.mean(axis=0) - point).tolist()))
+        return PolygonSet([Polygon(near)])
 
     def place_point(self, place: str) -> tuple[float, float] | None:
         """Return the position of a place of this world, None when it has none of that name.

@@ -119,5 +119,18 @@ def crosses_after_stop(spec: ScenarioSpec, person: GroundAgent) -> bool:
     )
 
 
+def crosses_from_wait(spec: ScenarioSpec, event: Event) -> bool:
+    """Tell whether somebody crosses when his own wait is over, which he has stood from t = 0.
+
+    Where he stands he sets off for the kerb then; everybody else is there before.
+    """
+    action, trigger = event.action, event.trigger
+    if not isinstance(action, AgentAction) or not isinstance(trigger, BehaviorDoneTrigger):
+        return False
+    person = next((a for a in spec.agents if a.id == action.agent), None)
+    waits = person is not None and stands_first_s(person) is not None
+    return waits and action.do == 'cross' and trigger.who == action.agent
+
+
 def _does(event: Event, action: str) -> bool:
     return isinstance(event.action, AgentAction) and event.action.do == action

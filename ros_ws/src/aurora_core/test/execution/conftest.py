@@ -282,7 +282,7 @@ class Stage:
             agents=tuple(
                 GroundAgent(
                     id=a,
-                    type=AgentType.CAR,
+                    type=AgentType.PEDESTRIAN if a in self.halts else AgentType.CAR,
                     behaviors=self.behaviors.get(a, ()),
                     placements=self.placements.get(a, ()),
                 )
@@ -362,6 +362,7 @@ class Stage:
             geometry=WorldGeometry(world),
             landing_clearance_m=4.0,
             arrival_m=15.0,
+            crosswalk_m=5.0,
             drive_m=self.drive_m,
             battery=BatteryRule(endurance_s=10.0, touchdown_m=0.3),
             action_rules=action_rules(load_tolerances(config_path('tolerances.json'))),

@@ -112,6 +112,16 @@ def test_beside_one_keeps_level(relation: Relation, behind_m: float, stage: Buil
     assert _of_ego(scene, SPEED) == [pytest.approx(8.0 + 0.4 * behind_m)]
 
 
+def test_a_vehicle_keeps_level_with_who_walks_beside_it(stage: Build) -> None:
+    """The person walks as he does; every one of them stands at first."""
+    scene = _abreast(stage, Relation.BESIDE, halts={'van1': (900.0, 0.0)}, speeds={'van1': 1.4})
+    scene.put('van1', 200.0, 3.3, 0.0).put('ego', 200.0).step()
+    scene.put('van1', 201.0, 3.3, 1.4).step()
+    assert _of_ego(scene, SPEED) == [0.0, pytest.approx(1.4 + 0.4 * 1.0)]
+    told = [v for _, agent, k, v in scene.commands() if agent == 'van1' and k == SPEED]
+    assert told == [1.4]
+
+
 def test_who_has_lost_the_one_beside_it_drives_on_by_itself(stage: Build) -> None:
     scene = _abreast(stage, Relation.BESIDE).put('van1', 200.0, 3.3, 8.0)
     scene.put('ego', 190.0, speed=8.0).step()

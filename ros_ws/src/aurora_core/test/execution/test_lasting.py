@@ -50,7 +50,7 @@ def test_a_person_who_stops_for_a_time_walks_on(stage: Build, parameter: Make) -
         speeds={'ego': 1.5},
     )
     scene.put('ego', 0.0, speed=1.5).step(40)
-    scene.put('ego', 14.8, speed=1.5).step(120)
+    scene.put('ego', 15.1, speed=1.5).step(120)
     told = [(t, what, value) for t, agent, what, value in scene.commands() if agent == 'ego']
     assert told == [(0, SET, 1.5), (40, SET, 0.0), (40 + 4 * TICKS_PER_S, SET, 1.5)]
 

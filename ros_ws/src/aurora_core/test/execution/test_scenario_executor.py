@@ -96,11 +96,35 @@ def test_who_walks_up_to_a_kerb_waits_there_until_it_is_time_to_cross(
     at = TimeTrigger(on='time', at_s=parameter(0.5, 's'))
     crosses = Event(id='e1', trigger=at, action=AgentAction(do='cross', agent='ego'))
     scene = stage(events=(crosses,), halts={'ego': (5.0, 0.0)}, speeds={'ego': 1.2})
-    for x in (0.0, 2.0, 4.7, 4.8):
-        scene.put('ego', x).step()
-    scene.step(10)
+    for x in (0.0, 2.0, 5.02, 5.08):
+        scene.put('ego', x, 0.65, 1.2).step()
+    scene.put('ego', 5.14).step(10)
     speeds = [(tick, v) for tick, who, kind, v in scene.commands() if who == 'ego' and kind == SET]
     assert speeds == [(0, 1.2), (2, 0.0), (10, 1.2)]
+
+
+def test_who_walks_up_to_a_kerb_stands_before_it_wherever_that_is(
+    stage: Callable[..., Any],
+) -> None:
+    """He does not walk as the planned line does; the street begins at 6 m."""
+    scene = stage(halts={'ego': (9.0, 3.0)}, speeds={'ego': 1.2}, street_x_m=(6.0, 13.0))
+    for x in (5.0, 5.7, 5.79):
+        scene.put('ego', x, speed=1.2).step()
+    speeds = [(tick, v) for tick, who, kind, v in scene.commands() if who == 'ego' and kind == SET]
+    assert speeds == [(0, 1.2), (2, 0.0)]
+
+
+def test_who_comes_up_behind_one_at_the_kerb_waits_until_that_has_gone(
+    stage: Callable[..., Any],
+) -> None:
+    scene = stage(halts={'van1': (5.0, 0.0), 'ego': (5.0, 0.0)}, speeds={'van1': 1.2, 'ego': 1.2})
+    scene.put('van1', 5.02, speed=1.2).put('ego', 2.0, speed=1.2).step()
+    scene.put('van1', 5.1).put('ego', 3.4, speed=1.2).step()
+    scene.put('ego', 3.6, speed=1.2).step(2)
+    scene.put('van1', 5.2, speed=1.2).put('ego', 3.7).step(2)
+    scene.put('van1', 9.0).put('ego', 5.02, speed=1.2).step(2)
+    speeds = [(tick, v) for tick, who, kind, v in scene.commands() if who == 'ego' and kind == SET]
+    assert speeds == [(0, 1.2), (2, 0.0), (4, 1.2), (6, 0.0)]
 
 
 @pytest.mark.parametrize(

@@ -91,12 +91,64 @@ def test_a_stated_distance_is_kept_along_the_street(grounded: Ground) -> None:
         ('A drone tracks a pedestrian, who walks on the sidewalk.', ReleaseOn.CAPTURED),
         ('A pedestrian walks on the sidewalk.', ReleaseOn.START),
         ('A pedestrian waits at the crosswalk.', ReleaseOn.NEVER),
-        ('A pedestrian crosses after 20 s.', ReleaseOn.EVENT),
+        ('A pedestrian waits for 10 s and then crosses.', ReleaseOn.NEVER),
     ],
 )
 def test_when_a_person_goes(grounded: Ground, prompt: str, release: ReleaseOn) -> None:
     (person,) = _persons(grounded(prompt)[0])
     assert person.release is release
+
+
+@pytest.mark.parametrize(
+    'when', ['after 20 s', 'when the ego car comes within 30 m', 'when the drone alerts the ego']
+)
+def test_who_crosses_at_some_moment_walks_up_to_the_kerb_first(
+    grounded: Ground, when: str
+) -> None:
+    """From where he stands at the end of the sidewalk it takes 2 s to the carriageway."""
+    found, the_map = grounded(f'A pedestrian crosses the road {when}. A drone tracks the ego car.')
+    (person,) = _persons(found)
+    assert person.release is ReleaseOn.START
+    assert person.halt_xy_m is not None
+    to_road_m = the_map.network.carriageway.distance(shapely.Point(person.halt_xy_m))
+    assert 0.0 < to_road_m < 0.5 < dist((person.x_m, person.y_m), person.halt_xy_m)
+
+
+@pytest.mark.parametrize(
+    ('words', 'place'),
+    [
+        ('toward the crosswalk at 1 m/s', 'crosswalk'),
+        ('to the crosswalk and crosses the road', 'crosswalk'),
+        ('to the crosswalk for 30 seconds', 'crosswalk'),
+        ('to the intersection', 'intersection'),
+        ('to City Hall', 'landmark:City Hall'),
+    ],
+)
+def test_who_walks_to_a_place_comes_from_elsewhere(
+    grounded: Ground, tolerances: Tolerances, words: str, place: str
+) -> None:
+    found, the_map = grounded(f'A pedestrian walks {words}. A drone tracks the pedestrian.')
+    (person,) = _persons(found)
+    anchor = the_map.network.position_on_lane(found.anchor_lane, found.anchor_position_m)[:2]
+    goal = MapPlaces(the_map).point(place, anchor)
+    begins_m = dist((person.x_m, person.y_m), goal)
+    nearest_m = shapely.LineString(person.route_xy_m).distance(shapely.Point(goal))
+    assert nearest_m < tolerances.arrival_m
+    assert begins_m > nearest_m + tolerances.approach_m + 1.0
+
+
+def test_who_walks_beside_a_car_stays_on_one_sidewalk(grounded: Ground) -> None:
+    found, the_map = grounded('A pedestrian walks beside the ego car. A drone tracks the car.')
+    (person,) = _persons(found)
+    (ego,) = (a for a in found.agents if not a.is_person)
+    assert len(person.edges) == 1
+    assert the_map.network.lane(person.lane_id).arc_length_m - person.lane_position_m > 50.0
+    assert dist((person.x_m, person.y_m), (ego.x_m, ego.y_m)) < 8.0
+
+
+def test_two_who_cross_do_not_touch_round_the_corner(grounded: Ground) -> None:
+    first, second = _persons(grounded('Two pedestrians cross the road at the crosswalk.')[0])
+    assert dist((first.x_m, first.y_m), (second.x_m, second.y_m)) > 1.5
 
 
 @pytest.mark.parametrize('of', ['van', 'truck'])

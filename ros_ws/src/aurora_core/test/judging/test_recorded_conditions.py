@@ -37,7 +37,7 @@ def _recorded(quantity: str, aspect: str) -> dict[str, Any]:
 
 # Kinds that there were not when the conditions were recorded.
 SINCE = {
-    'angle_swept', 'at_place', 'battery', 'braking_deceleration', 'clearance',
+    'angle_swept', 'at_place', 'battery', 'braking_deceleration', 'came_nearer', 'clearance',
     'climb_after_phase', 'climb_delay', 'delivered_at', 'distance_fraction', 'done_delay',
     'driver_waits', 'event_climb_rate', 'gust_blown', 'gust_speed', 'hardest_braking',
     'lane_kept_after', 'longest_standstill', 'message_text', 'motion_time',

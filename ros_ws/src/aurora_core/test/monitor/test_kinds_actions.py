@@ -89,12 +89,30 @@ def _waits() -> Case:
 
 
 def _crosses(tick: int, at_s: float) -> Case:
-    """A person steps onto the carriageway, which begins at y = 0."""
+    """A person steps onto the carriageway, which begins at y = 0: 0.5 s are allowed for that."""
     case = told_car('cross', np.full(T, 1.5), at_s)
     case.run.agents[0].x[:] = 0.0
     case.run.agents[0].y[:] = 0.075 * (TICK - tick) + 0.01
     case.world = world(streets=((-50.0, 0.0, 50.0, 7.0),))
     return case
+
+
+def _sets_out(stands_s: float | None = None) -> Case:
+    """A person stands 3 m from the carriageway up to 15 s, and is on it 2 s later.
+
+    He does so for a time of his own, or until an event says that he crosses.
+    """
+    case = _crosses(340, AT_S)
+    person = case.run.agents[0]
+    person.speed[:300], person.y[:300] = 0.0, person.y[300]
+    if stands_s is None:
+        return case
+    lasts = number(stands_s, Unit.SECOND, explicit=True)
+    waits = Behavior(kind=BehaviorKind.WAIT, duration_s=lasts)
+    agents = (dict(case.spec.agents[0]) | {'behaviors': (waits,)},)
+    case.spec = spec(**{**dict(case.spec), 'agents': agents})
+    trigger = {'on': 'behavior_done', 'who': 'car1', 'behavior': BehaviorKind.WAIT}
+    return changed(case, trigger=trigger)
 
 
 def _returns(tick: int, at_s: float, away_m: float = 0.0) -> Case:
@@ -195,9 +213,10 @@ ACTIONS: dict[str, Callable[[int, float], Case]] = {
 
 
 def _rows(do: str, make: Callable[[int, float], Case]) -> tuple[Row, ...]:
+    most_s = 0.5 if do == 'cross' else 1.0
     return (
-        Row(id='e1.within', make=lambda: make(310, AT_S), margin=1.0 - 0.5, what=do),
-        Row(id='e1.within', make=lambda: make(360, AT_S), margin=1.0 - 3.0, what=do),
+        Row(id='e1.within', make=lambda: make(310, AT_S), margin=most_s - 0.5, what=do),
+        Row(id='e1.within', make=lambda: make(360, AT_S), margin=most_s - 3.0, what=do),
         Row(
             id='e1.within',
             make=lambda: make(310, 99.0),
@@ -406,7 +425,15 @@ ROWS = (
     Row(id='e1.passed', make=lambda: _yields(0.0, triggered=False), reason=NEVER),
     # It had begun to climb, to cross, to fly the mission before: that is not what was asked.
     Row(
-        id='e1.within', make=lambda: _crosses(200, AT_S), margin=1.0 - 5.05, what='crossed-before'
+        id='e1.within', make=lambda: _crosses(200, AT_S), margin=0.5 - 5.05, what='crossed-before'
+    ),
+    # Who sets off then is not on the road then; whose own wait is over has done what was asked.
+    Row(id='e1.within', make=_sets_out, margin=0.5 - 2.0, what='sets-out'),
+    Row(
+        id='e1.within',
+        make=lambda: _sets_out(14.9),
+        margin=1.0 - 0.35,
+        what='sets-out-after-a-wait',
     ),
     Row(
         id='e1.within',

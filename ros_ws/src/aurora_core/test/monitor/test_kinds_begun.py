@@ -4,15 +4,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
 from kind_rows import Row
-from trace_builder import world
+from trace_builder import box_ring, world
 from trace_cases import Case, ground_case, spec
 
+from aurora_core.knowledge.world import NamedPlace, Surface, SurfaceKind
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind
@@ -66,7 +68,35 @@ def _slows(brakes_s: float) -> Case:
     return case
 
 
+def _reaches(brakes_s: float) -> Case:
+    """A person walks 1.5 m/s towards a crosswalk 20 m ahead, 5 m from it after 10 s."""
+    walks = Behavior(kind=BehaviorKind.WALK)
+    case = ground_case(walks, np.full(401, 1.5), car2=(60.0, _braking(brakes_s)))
+    ring = np.array(box_ring(20.0, -5.0, 24.0, 5.0))
+    outline = Surface(surface_id='c', kind=SurfaceKind.CROSSING, ring=ring)
+    middle = NamedPlace(name='crosswalk', x_m=22.0, y_m=0.0)
+    case.world = replace(case.world, surfaces=(*case.world.surfaces, outline), places=(middle,))
+    person, car = (dict(agent) for agent in case.spec.agents)
+    case.run.agents[0].type = 'pedestrian'
+    brakes = {
+        'id': 'e2',
+        'trigger': {'on': 'arrives', 'who': 'car1', 'place': 'crosswalk'},
+        'action': {'do': 'brake', 'agent': 'car2'},
+    }
+    case.spec = spec(agents=(person | {'type': 'pedestrian'}, car), events=(brakes,))
+    return case
+
+
 ROWS = (
+    Row(id='e2.within', make=partial(_reaches, 10.5), margin=0.5, within=0.1, what='reaches'),
+    # 15 m from its middle, where a car would be there, it has not reached it.
+    Row(
+        id='e2.within',
+        make=partial(_reaches, 4.7),
+        margin=1.0 - 10.05,
+        within=0.1,
+        what='comes-near',
+    ),
     Row(
         id='e2.within',
         make=partial(_crosses, 'event_begun', 8.4),

@@ -135,8 +135,45 @@ _STOPPED = (
     ),
 )
 
+
+def _drives_to(tower_x: float, kind: BehaviorKind = BehaviorKind.DRIVE) -> Case:
+    """car1 drives 100 m, and is to drive to the tower."""
+    speed = np.concatenate([np.full(200, 10.0), np.zeros(201)])
+    case = ground_case(Behavior(kind=kind, target=TOWER), speed)
+    case.world = replace(case.world, places=(NamedPlace(name=TOWER, x_m=tower_x, y_m=0.0),))
+    return case
+
+
+def _approaches(way_m: float) -> Case:
+    """car1 comes so far along the street to where that leads to the tower, 60 m beside it."""
+    case = _drives_to(100.0, BehaviorKind.APPROACH)
+    case.run.agents[0].x[:] += 100.0 - way_m
+    places = (
+        NamedPlace(name=TOWER, x_m=100.0, y_m=60.0),
+        NamedPlace(name='approach:Tower', x_m=100.0, y_m=0.0),
+    )
+    case.world = replace(case.world, places=places)
+    return case
+
+
+# Who is there from the beginning has not gone there, however far it drives then; 10 m are asked.
+_GONE_TO = (
+    Row(id='car1.drive.nearer', make=lambda: _drives_to(95.0), margin=95.0 - 10.0, what='comes'),
+    Row(id='car1.drive.nearer', make=lambda: _drives_to(2.0), margin=2.0 - 10.0, what='leaves'),
+    Row(id='car1.drive.nearer', make=lambda: _drives_to(-9.0), margin=0.0 - 10.0, what='away'),
+    Row(
+        id='car1.drive.nearer',
+        make=lambda: gone(_drives_to(95.0), 0, 0),
+        reason=Reason.TARGET_GONE,
+        what='gone',
+    ),
+    Row(id='car1.approach', make=lambda: _approaches(25.0), margin=25.0 - 10.0, what='on-road'),
+    Row(id='car1.approach', make=lambda: _approaches(4.0), margin=4.0 - 10.0, what='on-road'),
+)
+
 R = Relation
 ROWS = (
+    *_GONE_TO,
     *_STOPPED,
     *_rows(R.AHEAD, 'car2', (20.0, 0.0, 20.0), (-20.0, 0.0, -20.0)),
     *_rows(R.BEHIND, 'car2', (-20.0, 0.0, 20.0), (20.0, 0.0, -20.0)),

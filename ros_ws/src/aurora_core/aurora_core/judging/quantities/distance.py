@@ -30,7 +30,10 @@ class Distance(StatedSeries):
 
 
 class ClosedIn(Quantity):
-    """How much the distance fell below the one at t = 0, metres."""
+    """How much the distance fell below the one at t = 0, metres.
+
+    To a landmark it is that to where the road leads to it.
+    """
 
     name = QuantityName.DISTANCE
     kind: Literal['closed_in'] = 'closed_in'
@@ -41,7 +44,7 @@ class ClosedIn(Quantity):
         ticks = context.window(condition)
         if isinstance(ticks, Missing):
             return ticks
-        values = motion.distance(context.view, condition.of[0], condition.of[1])
+        values = motion.distance(context.view, *condition.of, on_road=True)
         both = context.view.present(condition.of[0]) & context.view.present(condition.of[1])
         end = first_tick(~both)
         if end == 0:
