@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +22,13 @@ from aurora_core.spec.scenario import DistanceTrigger, Event, EventDoneTrigger
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UavPhase
 from aurora_core.trace.records import LinkEventKind, LinkRecord
-from aurora_system_tests.sabotage import Sabotage
+from aurora_system_tests.sabotage import (
+    Sabotage,
+    with_agents,
+    with_links,
+    with_machines,
+    with_runner,
+)
 
 FloatArray = npt.NDArray[np.float64]
 Machines = Sequence[MissionMachine]
@@ -199,58 +204,6 @@ class _SeeingEverything:
     def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
         output = self._executor.step(tick, ground, uav)
         return output._replace(sights=tuple(replace(s, visible=True) for s in output.sights))
-
-
-def with_runner(kind: type[EventRunner]) -> Sabotage:
-    """Return the sabotage that runs the events otherwise."""
-
-    def sabotage(executor: ScenarioExecutor) -> Stepper:
-        executor._runner = executor._run_events(kind)
-        return executor
-
-    return sabotage
-
-
-def with_machines(
-    kind: type[MissionMachine] = MissionMachine, plan: Callable[[UavPlan], UavPlan] = lambda p: p
-) -> Sabotage:
-    """Return the sabotage that flies otherwise, or another plan than the one grounded."""
-
-    def sabotage(executor: ScenarioExecutor) -> Stepper:
-        machines = tuple(kind(plan(m.plan), m._settings, m._dt) for m in executor._setup.machines)
-        return ScenarioExecutor(replace(executor._setup, machines=machines))
-
-    return sabotage
-
-
-def with_links(kind: type[MessageLink], **settings: str) -> Sabotage:
-    """Return the sabotage that carries messages otherwise, or between others."""
-
-    def sabotage(executor: ScenarioExecutor) -> Stepper:
-        links = tuple(
-            kind(replace(k.settings, **settings), k._dt, k._generator, k._loss_at)  # type: ignore[arg-type]
-            for k in executor._setup.links
-        )
-        other = ScenarioExecutor(replace(executor._setup, links=links))
-        if settings:  # the sender of an event would not find its link any more
-            other._runner._links = links
-            for state in other._runner._states:
-                action = dict(state.event.action or {}) | settings
-                event = dict(state.event) | {'action': action}
-                state.event = Event.model_validate(event)
-        return other
-
-    return sabotage
-
-
-def with_agents(**changes: Any) -> Sabotage:
-    """Return the sabotage that carries out other groundings of the vehicles and persons."""
-
-    def sabotage(executor: ScenarioExecutor) -> Stepper:
-        agents = tuple(a.model_copy(update=changes) for a in executor._setup.agents)
-        return ScenarioExecutor(replace(executor._setup, agents=agents))
-
-    return sabotage
 
 
 def _lower(plan: UavPlan) -> UavPlan:

@@ -29,14 +29,14 @@ from aurora_core.spec.scenario import (
 )
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
-from aurora_system_tests.planted_bugs import (
-    PLANTED,
+from aurora_system_tests.planted_bugs import PLANTED
+from aurora_system_tests.sabotage import (
+    Sabotage,
     with_agents,
     with_links,
     with_machines,
     with_runner,
 )
-from aurora_system_tests.sabotage import Sabotage
 
 Machines = Sequence[MissionMachine]
 

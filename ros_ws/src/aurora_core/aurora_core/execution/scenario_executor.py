@@ -29,8 +29,8 @@ from aurora_core.execution.premises import Premises
 from aurora_core.execution.reports import Reports
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.execution.triggers import BatteryRule
+from aurora_core.execution.walking_up import is_behind, is_there
 from aurora_core.execution.ways import Destinations, Ways
-from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.knowledge.limits import Tolerance
 from aurora_core.knowledge.settings import DrivingStyle
@@ -44,7 +44,6 @@ from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import (
     UAV_COMMAND_WIDTH,
-    GroundColumn,
     GroundCommandKind,
     UavPhase,
 )
@@ -66,12 +65,6 @@ _GENTLY_MPS2 = 3.0
 # Who stops by itself, and nobody says for how long, stands for the rest of any run (s).
 _STANDS_S = 3600.0
 
-# Who walks up to where he is to stand is there until he is so much beyond it (m), and no farther
-# beside it: two walk abreast.
-_BEYOND_M = 0.4
-_ABREAST_M = 1.5
-# And stands so far behind somebody who stands there already (m).
-_BEHIND_M = 1.5
 
 # Distance recorded for a transmission to or from a body that is gone (m).
 GONE_M = 1e6
@@ -335,8 +328,9 @@ class ScenarioExecutor:
         for index, (x_m, y_m) in sorted(self._walking_up.items()):
             if index in self._held or seen.position(self._setup.agents[index].id) is None:
                 continue
-            there = _is_there(seen.ground(index), x_m, y_m) or seen.steps_off(index, self._dt_s)
-            stands, waits = index in self._behind, not there and self._is_behind(index, seen)
+            there = is_there(seen.ground(index), x_m, y_m) or seen.steps_off(index, self._dt_s)
+            waits = not there and self._somebody_stands_before(index, seen)
+            stands = index in self._behind
             if there:
                 del self._walking_up[index]
                 self._standing.begins(index, tick)
@@ -348,18 +342,13 @@ class ScenarioExecutor:
             self._behind = self._behind | {index} if waits else self._behind - {index}
         return commands
 
-    def _is_behind(self, index: int, seen: Observation) -> bool:
-        """Tell whether somebody stands in the way of a person who walks up to a place."""
-        x, y, hx, hy = seen.ground(index)[: GroundColumn.HEADING_Y + 1].tolist()
-        for other, agent in enumerate(self._setup.agents):
-            if other == index or not agent.is_person or other in self._walking_up:
-                continue
-            state = seen.ground(other)
-            to_x, to_y = float(state[GroundColumn.X]) - x, float(state[GroundColumn.Y]) - y
-            near = norm2(to_x, to_y) <= _BEHIND_M and to_x * hx + to_y * hy > 0.5 * _BEHIND_M
-            if near and state[GroundColumn.SPEED] < self._setup.action_rules.stop_mps:
-                return True
-        return False
+    def _somebody_stands_before(self, index: int, seen: Observation) -> bool:
+        others = [
+            seen.ground(other)
+            for other, agent in enumerate(self._setup.agents)
+            if other != index and agent.is_person and other not in self._walking_up
+        ]
+        return is_behind(seen.ground(index), others, self._setup.action_rules.stop_mps)
 
     def _stood(self, tick: int) -> list[GroundCommand]:
         """Let go on who has stood for its time."""
@@ -475,13 +464,6 @@ class ScenarioExecutor:
         return (
             idle and self._runner.done and self._destinations.all_reached() and self._lasting.done
         )
-
-
-def _is_there(state: FloatArray, x_m: float, y_m: float) -> bool:
-    """Tell whether a person (GROUND_WIDTH,) has walked up to abreast of a point."""
-    x, y, hx, hy = state[: GroundColumn.HEADING_Y + 1].tolist()
-    to_go_m = (x_m - x) * hx + (y_m - y) * hy
-    return -_BEYOND_M <= to_go_m <= 0.0 and norm2(x_m - x, y_m - y) <= _ABREAST_M
 
 
 def _is_as_far(agent: GroundedAgent, seen: Observation) -> bool:
