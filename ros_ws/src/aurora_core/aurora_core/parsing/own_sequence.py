@@ -19,7 +19,6 @@ def own_sequence(scene: Scene) -> None:
     """`when its hover is over, it orbits the park`: the sequence that every UAV's phases have."""
     for event in scene.events:
         _phase_over(scene, event)
-        _lands_there(scene, event)
     for event in tuple(reversed(scene.events)):
         action = event.action
         if not isinstance(action, UavAction) or event.delay is not None:
@@ -49,44 +48,6 @@ def _phase_over(scene: Scene, event: EventDraft) -> None:
             scene.understood.append(stated)
             event.trigger = MissionDoneTrigger(on='mission_done', uav=mission.uav.id)
             return
-
-
-def goes_home(scene: Scene, ending: EventDraft) -> None:
-    """`tracks a van until it stops, then returns home`: what it does then, and not after landing.
-
-    Args:
-        scene: The scene.
-        ending: The event that ends a flight, by landing so far.
-    """
-    for event in tuple(scene.events):
-        action, over = event.action, event.trigger
-        if not isinstance(action, UavAction) or action.do != 'return_home':
-            continue
-        then = isinstance(over, EventDoneTrigger) and over.event == ending.id
-        last = isinstance(over, MissionDoneTrigger) and over.uav == action.uav
-        if action.uav != getattr(ending.action, 'uav', None) or not (then or last):
-            continue
-        ending.action, ending.delay = action, event.delay
-        scene.events.remove(event)
-        for clause in scene.clauses:
-            if event.id in clause.ids:
-                del clause.ids[event.id]
-                clause.ids[ending.id] = None
-        for other in scene.events:
-            if getattr(other.trigger, 'event', None) == event.id:
-                other.trigger = EventDoneTrigger(on='event_done', event=ending.id)
-
-
-def _lands_there(scene: Scene, event: EventDraft) -> None:
-    """`15 s after it stops the drone returns home and lands`: no sooner than it returns."""
-    action = event.action
-    if not isinstance(action, UavAction) or action.do != 'land' or event.trigger is None:
-        return
-    for home in scene.events:
-        way = home.action
-        goes = isinstance(way, UavAction) and (way.do, way.uav) == ('return_home', action.uav)
-        if goes and home.trigger == event.trigger and event.delay is None:
-            event.delay = home.delay
 
 
 def _follows(scene: Scene, event: EventDraft, action: UavAction) -> bool:

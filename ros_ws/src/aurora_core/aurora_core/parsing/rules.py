@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from aurora_core.parsing.constructions.places import add_placement
 from aurora_core.parsing.doubts.clauses import stands_bare
-from aurora_core.parsing.own_sequence import goes_home, own_sequence
+from aurora_core.parsing.own_sequence import own_sequence
 from aurora_core.parsing.scene import Doubt, Entity, LinkDraft, MissionDraft, Scene
 from aurora_core.parsing.values import stated
 from aurora_core.spec.scenario import (
@@ -78,8 +78,6 @@ def settle(scene: Scene) -> None:
                 scene.drop_mission(
                     until.mission, until.event
                 )  # `waits until it is done, then hovers there`
-        else:
-            goes_home(scene, until.event)
     for draft in tuple(scene.missions):
         if draft.needs_target and draft.target is None:
             _infer_target(scene, draft)

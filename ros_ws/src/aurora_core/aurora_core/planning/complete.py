@@ -14,6 +14,7 @@ from aurora_core.parsing import values
 from aurora_core.planning.bodies import approaching, meeting, passed, standing, yielding
 from aurora_core.planning.bounds import bent
 from aurora_core.planning.deadlines import hurried
+from aurora_core.planning.endings import landing
 from aurora_core.planning.ids import free_ids
 from aurora_core.planning.kept_distances import at_start_where_changed
 from aurora_core.planning.orders import following, waiting
@@ -48,7 +49,7 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    spec = meeting(passed(standing(blowing(spec, limits))))
+    spec = meeting(passed(standing(blowing(landing(spec), limits))))
     spec = following(waiting(hovering(reporting(telling(yielding(approaching(spec)))))))
     timed = at_start_where_changed(hurried(spec, limits))
     return as_high(layered(as_high(bent(lasting(timed), limits)), limits))

@@ -37,27 +37,7 @@ def _flights(spec: ScenarioSpec) -> list[tuple[str, str, float]]:
 @pytest.mark.parametrize(
     ('prompt', 'flights'),
     [
-        (
-            'A drone tracks a van until it stops; then it returns home.',
-            [('return_home', 'event_done', 0.0)],
-        ),
-        (
-            'A drone follows a cyclist until he stops, after which it returns to its start.',
-            [('return_home', 'event_done', 0.0)],
-        ),
-        (
-            'A drone tracks a bus until it stops; 10 s later it returns home.',
-            [('return_home', 'event_done', 10.0)],
-        ),
-        (
-            'A drone hovers over Central Park until a truck comes within 30 m; then it returns.',
-            [('return_home', 'distance_below', 0.0)],
-        ),
         ('A drone tracks a van until it stops; then it lands.', [('land', 'event_done', 0.0)]),
-        (
-            'A drone tracks the van; 15 s after the van stops the drone returns home and lands.',
-            [('return_home', 'event_done', 15.0), ('land', 'event_done', 15.0)],
-        ),
         (
             'A drone tracks the van; when the van stops it returns to its start.',
             [('return_home', 'event_done', 0.0)],
