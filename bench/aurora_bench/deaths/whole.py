@@ -13,9 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from aurora_bench.bags.recovered import recovered
-from aurora_bench.deaths.stages import VERIFIED, Undisturbed, make_whole, options
+from aurora_bench.deaths.stages import Undisturbed, make_whole, options
 from aurora_bench.faults.client import Client, Run, trace_hash
 from aurora_bench.faults.live_graph import LiveGraph
+from aurora_bench.faults.matrix import PROMPT as VERIFIED
 from aurora_core.document import Document
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import MessageDefinitions

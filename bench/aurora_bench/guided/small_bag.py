@@ -4,9 +4,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import io
 import struct
+import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,10 +16,10 @@ from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType, Writer
 
 from aurora_bench.bags.forge import mcap_of
-from aurora_cli.main import run_command_line
 
 _PROMPT = 'A drone hovers over an intersection at 30 m for 5 seconds.'
 _MAP = 'junction'
+_COMMAND = 'from aurora_cli.main import main; main()'
 _KEPT = 10  # messages of each topic
 # Mode of all edits, topic, number of the message, offset, length of the new bytes.
 _HEAD = struct.Struct('<BBHIB')
@@ -46,10 +47,12 @@ class SmallBag:
         Args:
             folder: For the run.
         """
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            command = ['run', _PROMPT, '--map', _MAP, '--no-repair', '--out', str(folder / 'runs')]
-            run_command_line(command)
+        # In a process of its own: instrumented, a run takes minutes.
+        options = ['--map', _MAP, '--no-repair', '--out', str(folder / 'runs')]
+        subprocess.run(
+            [sys.executable, '-c', _COMMAND, 'run', _PROMPT, *options],
+            capture_output=True, check=True,
+        )  # fmt: skip
         path = mcap_of(next((folder / 'runs').glob('*/bag.0')))
         schemas: dict[int, Schema] = {}
         channels: dict[int, Channel] = {}
@@ -99,7 +102,8 @@ class SmallBag:
 
 
 def _edits(data: bytes) -> list[tuple[int, int, int, bytes]]:
-    found, at = [], 0
+    found: list[tuple[int, int, int, bytes]] = []
+    at = 0
     while at + _HEAD.size <= len(data) and len(found) < _MOST_EDITS:
         _, topic, number, offset, length = _HEAD.unpack_from(data, at)
         at += _HEAD.size

@@ -18,6 +18,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from pymavlink.dialects.v20 import common as mavlink
+
 from aurora_bench.fuzz.campaign import typed
 from aurora_bench.guided.small_bag import SmallBag
 from aurora_bench.prompts.reading import read_prompts
@@ -162,7 +164,7 @@ def _edits() -> Iterator[bytes]:
 
 
 def _frames(_: Path) -> Attempt:
-    numbers = tuple(wire.mavlink.mavlink_map)
+    numbers = tuple(mavlink.mavlink_map)
 
     def attempt(data: bytes) -> None:
         server = SimServer()
@@ -185,7 +187,7 @@ def _frames(_: Path) -> Attempt:
 
 
 def _datagrams() -> Iterator[bytes]:
-    numbers = tuple(wire.mavlink.mavlink_map)
+    numbers = tuple(mavlink.mavlink_map)
     for first in range(0, len(numbers), 6):
         yield b''.join(
             struct.pack('<BBHB', 191, 1, k, 33) + bytes([1, 1, *range(31)])

@@ -14,7 +14,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -95,7 +95,7 @@ def moved(first: int, count: int, folder: Path) -> Found:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
         )
-        came = _wait(lambda m=moment, r=runs: any(r.glob(f'*/{_MOMENTS[m]}')), process)
+        came = _wait(runs, _MOMENTS[moment], process)
         _move(clock, moves)
         said, complaint = process.communicate(timeout=_LIMIT_S)
         problem = '' if came else f'the moment never came: {complaint.decode()[-200:]}'
@@ -110,12 +110,13 @@ def _undisturbed(folder: Path) -> tuple[int, str]:
     return code, report['trace']['sha256']
 
 
-def _wait(is_time: Callable[[], bool], process: subprocess.Popen[bytes]) -> bool:
+def _wait(runs: Path, name: str, process: subprocess.Popen[bytes]) -> bool:
+    """Wait for a file of the run folder; return False when the run ended without it."""
     while process.poll() is None:
-        if is_time():
+        if any(runs.glob(f'*/{name}')):
             return True
         time.sleep(_LOOK_S)
-    return is_time()
+    return any(runs.glob(f'*/{name}'))
 
 
 def _move(clock: Path, moves: tuple[str, ...]) -> None:
