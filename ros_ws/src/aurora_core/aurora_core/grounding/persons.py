@@ -217,7 +217,7 @@ class PersonPlacer:
                 heading_x=hx,
                 heading_y=hy,
                 arrival_position_m=None if stays else arrival,
-                lateral_m=seat.lateral_m,
+                lateral_m=seat.arc_m if free else seat.lateral_m,
                 way_xy_m=line_from(path, seat.arc_m) if free else (),
                 stop_s=None if crosses_after_stop(spec, agent) else stop_time_s(agent),
                 halt_xy_m=None if halts is None else path.position_at(halts)[:2],

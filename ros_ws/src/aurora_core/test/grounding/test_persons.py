@@ -165,6 +165,12 @@ def test_who_steps_out_from_behind_a_parked_vehicle_crosses_right_there(
     assert way.coords[0] == (person.x_m, person.y_m)
     assert person.route_xy_m == person.way_xy_m
     assert person.release is ReleaseOn.EVENT
+    # He waits at the kerb, which is left of the middle of the sidewalk.
+    to_road_m = the_map.network.carriageway.distance(shapely.Point(person.x_m, person.y_m))
+    assert 0.0 < to_road_m < 0.2
+    sidewalk = the_map.network.lane(person.lane_id)
+    middle = sidewalk.line.at(person.lane_position_m)[:2]
+    assert dist(middle, (person.x_m, person.y_m)) == pytest.approx(person.lateral_m, abs=1e-3)
     # Right behind it, and from one sidewalk to the other over the whole carriageway.
     hx, hy = parked.heading_x, parked.heading_y
     behind_m = hx * (parked.x_m - person.x_m) + hy * (parked.y_m - person.y_m)
