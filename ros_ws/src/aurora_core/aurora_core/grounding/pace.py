@@ -47,6 +47,9 @@ _ROOM_M = 15.0
 _GAINS_MPS2 = 1.5
 _DRIVES_S = 3.0
 
+# Who slows down to a speed at the sight of somebody drives so much faster before (m/s).
+_SLOWS_BY_MPS = 6.0
+
 # Below a bound on the speed of a UAV its target is so much slower, to be caught up with (m/s).
 _CAUGHT_UP_MPS = 3.0
 
@@ -194,10 +197,19 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
         if target is not None and _is_taken_over(spec, mission):
             pace = min(pace, settings.speeds.taken_over_mps)
         if target is not None and slows_at_sight(spec, target.id, mission.uav):
-            pace = min(pace, settings.speeds.taken_over_mps)  # it is caught up with
+            # It is caught up with, and faster than it is to be then.
+            least = _slowed_to_mps(spec, target.id) + _SLOWS_BY_MPS
+            pace = min(pace, max(settings.speeds.taken_over_mps, least))
         if target is not None and mission.mode is MissionMode.TRACK:
             pace = min(pace, _kept_up_with_mps(spec, mission.uav))
     return pace
+
+
+def _slowed_to_mps(spec: ScenarioSpec, agent: str) -> float:
+    """Return the greatest speed that an event tells an agent to have, 0 for none (m/s)."""
+    actions = [e.action for e in spec.events if isinstance(e.action, AgentAction)]
+    told = (a.value_mps for a in actions if a.agent == agent)
+    return max((v.value for v in told if v is not None), default=0.0)
 
 
 def _kept_up_with_mps(spec: ScenarioSpec, uav: str) -> float:
