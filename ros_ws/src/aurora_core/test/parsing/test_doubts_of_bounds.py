@@ -25,6 +25,7 @@ def _unread(prompt: str) -> list[str]:
         ('Its distance to the van is always above 20 m, and always below 60 m.', '60 m'),
         ('The gap between them is never below 20 m and never above 60 m.', '60 m'),
         ('The gap between them is never below 20 m or above 60 m.', '60 m'),
+        ('Then it flies to the intersection at least 60 m high.', '60 m high'),
         (
             'The horizontal distance to the van stays below 40 m and must never be below 10 m.',
             '40 m',

@@ -17,6 +17,8 @@ from aurora_core.spec.scenario import ScenarioSpec, StatedCondition
 # Words for what lies between two, and for a height.
 _APART = frozenset({'gap', 'radio_range', 'separation', 'standoff'})
 _FLIES = re.compile(r'\b(?:climb|descend|fl(?:y|ies|ying|own)|hover|land|orbit|ris|sink)')
+_DISTANCES = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
+_HIGH = re.compile(r'\s*(?:high|up|above|agl|in the air|of altitude|of height|altitude)\b')
 # On which side of a number these say that a value is: -1 below it.
 _SIDES = {
     (AtomKind.PREPOSITION, 'below'): -1,
@@ -46,6 +48,16 @@ def distances_as_heights(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[
                 made = _condition_of(spec, atom)
                 if made is not None and made.quantity == QuantityName.ALTITUDE:
                     yield over(atom, atom)
+
+
+def heights_as_bounds_of_distance(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`flies to the hospital at least 60 m high` that became 60 m away from it."""
+    for atom in atoms:
+        made = _condition_of(spec, atom) if atom.measure is not None else None
+        if made is not None and made.quantity in _DISTANCES:
+            behind = _HIGH.match(spec.prompt.lower(), atom.end)
+            if behind is not None:
+                yield Span(start=atom.start, end=behind.end())
 
 
 def sides_turned(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

@@ -29,7 +29,11 @@ from aurora_core.parsing.doubts.bodies import (
     twins,
     without_part,
 )
-from aurora_core.parsing.doubts.bounds import distances_as_heights, sides_turned
+from aurora_core.parsing.doubts.bounds import (
+    distances_as_heights,
+    heights_as_bounds_of_distance,
+    sides_turned,
+)
 from aurora_core.parsing.doubts.deeds import deeds_at_places, stops_at_places
 from aurora_core.parsing.doubts.flights import (
     flights_at_once,
@@ -107,6 +111,7 @@ _CHECKS: tuple[_Check, ...] = (
     heights_over_fliers,
     heights_from_somebody,
     distances_as_heights,
+    heights_as_bounds_of_distance,
     sides_turned,
     heights_passed_twice,
     hovers_over_movers,
