@@ -133,11 +133,13 @@ def _points(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> J
     """Return whether a route of points has so many, around its target; a single one is there."""
     pattern, count = requirement.get('pattern'), requirement.get('waypoint_count')
     number = None if count is None else int(count)
-    if number == 1 or (number is None and pattern is None):
-        reached = _goes_there(flight, xy)
+    if number is None and pattern is None:
+        there = _goes_there(flight, xy)
+        about = _about(flight, xy) if flight.targets else there
         # A flight of no stated form may as well be one around it.
-        about = [reached] if number == 1 or not flight.targets else [reached, _about(flight, xy)]
-        return any_of(about)
+        return about if about.outcome is Outcome.HOLDS else there
+    if number == 1 and flight.targets:
+        return _goes_there(flight, xy)
     reached = flights.waypoints(xy, number or 2)
     if not flight.targets:
         return reached

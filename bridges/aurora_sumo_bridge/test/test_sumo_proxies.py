@@ -57,10 +57,10 @@ def test_a_uav_above_a_vehicle_stands_on_it_in_every_quadrant(
         rows = client.advance(tick, ())
         client.show_uavs(flown(rows[:, GroundColumn.X : GroundColumn.Y + 1]))
     for k, (car, quadrant) in enumerate(zip(cars, QUADRANTS, strict=True)):
-        heading = rows[k, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1].tolist()
-        front = libsumo.vehicle.getPosition(car.agent_id)
+        ahead_x, ahead_y = rows[k, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1].tolist()
+        x, y = libsumo.vehicle.getPosition(car.agent_id)
         length_m = libsumo.vehicle.getLength(car.agent_id)
-        centre = centre_from_front(*front, *heading, length_m)
+        centre = centre_from_front(x, y, ahead_x, ahead_y, length_m)
         found = libsumo.poi.getPosition(proxy_id(k))
         assert np.hypot(found[0] - centre[0], found[1] - centre[1]) < 0.01
         assert np.sign(found).tolist() == list(quadrant)

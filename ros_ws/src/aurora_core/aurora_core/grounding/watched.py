@@ -102,7 +102,7 @@ def looks(spec: ScenarioSpec) -> Iterator[tuple[str, str, float]]:
     idle = {a.id for a in spec.agents if not moves(spec, a)}
     on_foot = [a for a in spec.agents if a.type in ON_SIDEWALKS]
     staying = {a.id for a in on_foot if a.id in idle or stands(a)}
-    bodies = {a.id for a in spec.agents} | {uav.id for uav in spec.uavs}
+    bodies = {a.id for a in spec.agents} | {u.id for u in spec.uavs}
     for one in spec.conditions:
         least = one.quantity == QuantityName.VISIBLE_TIME and one.op in ('>', '>=')
         if least and len(one.of) > 1 and one.of[0] in idle:
