@@ -33,8 +33,13 @@ class _StillAir(SabotagedStages):
     def execution(self, agsg: Agsg, request: RunRequest) -> Execution:
         """Return what is run, without its wind."""
         asked = super().execution(agsg, request)
-        still = {'wind_mean_east_mps': 0.0, 'wind_mean_north_mps': 0.0, 'wind_gust_mps': 0.0}
-        return replace(asked, air_load=replace(asked.air_load, **still))
+        still = replace(
+            asked.air_load,
+            wind_mean_east_mps=0.0,
+            wind_mean_north_mps=0.0,
+            wind_gust_mps=0.0,
+        )
+        return replace(asked, air_load=still)
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import pytest
 from kind_rows import Row, grounded
@@ -125,7 +126,7 @@ def test_the_height_of_a_way(row: Row) -> None:
     row.check()
 
 
-def _ids(**asked: object) -> set[str]:
+def _ids(**asked: Any) -> set[str]:
     row = Row(id=WAY, make=partial(_flies_to, 0.0, **asked))
     return {c.id for c in row.conditions()}
 

@@ -21,12 +21,13 @@ from aurora_core.spec.parameter import Unit
 
 def _rests_from(tick: int, do: str = 'stop') -> Case:
     """It drives at 8 m/s and stands from a tick on."""
-    return told_car(do, 8.0 * (tick > TICK), AT_S)
+    return told_car(do, np.where(tick > TICK, 8.0, 0.0), AT_S)
 
 
 def _sets_off(tick: int) -> Case:
     """It stands, and gains 2 m/s^2 from a tick on."""
-    return told_car('stop', np.clip(0.1 * (TICK - tick), 0.0, 10.0), AT_S)
+    speed = np.clip(0.1 * (TICK - tick), 0.0, 10.0).astype(np.float64)
+    return told_car('stop', speed, AT_S)
 
 
 def _to(value_mps: float, before_mps: float) -> Case:
