@@ -27,6 +27,8 @@ from aurora_core.spec.vocabulary import (
     Weather,
 )
 
+# How a link fades towards its range is nothing that a request says.
+_UNSAID = {'link_decade_db'}
 _SIZES = ('length_m', 'width_m', 'height_m')
 _VOCABULARY: Mapping[str, type[StrEnum]] = {
     'behaviors': BehaviorKind,
@@ -73,7 +75,7 @@ def registry_records(
     return (
         _registry('agent_types', 'knowledge/measured/agent_types.json', _types(types, limits)),
         _registry('mission_templates', 'parsing/defaults.yaml', _templates(unsaid)),
-        _registry('limits', 'limits.json', limits.model_dump(mode='json')),
+        _registry('limits', 'limits.json', limits.model_dump(mode='json', exclude=_UNSAID)),
         _registry('maps', f'maps/{map_model.name}', _map(map_model, maps, measured)),
         _registry(
             'vocabulary',
