@@ -34,6 +34,7 @@ from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
     MissionMode,
+    Relation,
     Weather,
 )
 
@@ -298,6 +299,14 @@ def _leads(spec: ScenarioSpec, clause: Clause) -> bool:
     return bool(own & after) or flown
 
 
+def _behind_another(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Somebody who is ahead of or behind somebody else, or keeps behind."""
+    placed = [p.relation for a in spec.agents for p in a.placements]
+    kept = [b.kind for a in spec.agents for b in a.behaviors]
+    row = {Relation.AHEAD, Relation.BEHIND} & set(placed)
+    return bool(row or {BehaviorKind.FOLLOW, BehaviorKind.TAILGATE} & set(kept))
+
+
 def _differing(spec: ScenarioSpec, clause: Clause) -> bool:
     """`at 30 m and 50 m respectively`: no two numbers of a unit that two elements share."""
     elements = (*spec.missions, *spec.agents, *spec.events)
@@ -447,6 +456,7 @@ CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'time_of_day': _time_of_day,
     'event': _event,
     'first_phase': _first_phase,
+    'behind_another': _behind_another,
     'leads': _leads,
     'differing': _differing,
     'sequence': _sequence,

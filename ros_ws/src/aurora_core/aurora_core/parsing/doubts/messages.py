@@ -16,6 +16,7 @@ from aurora_core.spec.scenario import (
     MessageTrigger,
     ScenarioSpec,
     SendMessage,
+    UavAction,
     bodies_of,
 )
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind
@@ -28,6 +29,13 @@ _GOES_ON = frozenset(
         *('orbit', 'park', 'reach', 'receive', 'track', 'wait', 'walk'),
     }
 )
+
+
+# What somebody may do because of a message.
+_REACTS = frozenset(BehaviorKind) - {
+    *(BehaviorKind.CIRCULATE, BehaviorKind.FOLLOW, BehaviorKind.TAILGATE),
+    *(BehaviorKind.APPROACH, BehaviorKind.WAIT, BehaviorKind.PARK),
+}
 
 
 def other_receivers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
@@ -149,3 +157,35 @@ def contents(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 
 def _of_the_object(atom: Atom) -> bool:
     return atom.kind not in _ENDS and (atom.kind is not AtomKind.PREPOSITION or atom.key == 'of')
+
+
+def reactions(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`it alerts the ego car when the bus stops. The ego car brakes`: because it was told so?
+
+    As a behaviour of its own that begins long before the message is sent.
+    """
+    for event in spec.events:
+        sent = event.action
+        if not isinstance(sent, SendMessage) or event.span is None:
+            continue
+        for agent in spec.agents:
+            for behavior in agent.behaviors if agent.id == sent.receiver else ():
+                told = behavior.span is not None and behavior.span.start >= event.span.end
+                if told and behavior.kind in _REACTS and behavior.duration_s is None:
+                    yield behavior.span
+
+
+def landings_when_told(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`the car sends a message to the drone, and the drone lands`: when that is there?"""
+    acts = [e.action for e in spec.events]
+    for event in spec.events:
+        sent = event.action
+        if not isinstance(sent, SendMessage) or event.span is None:
+            continue
+        lands = any(isinstance(a, UavAction) and a.uav == sent.receiver and a.lands for a in acts)
+        if lands or all(uav.id != sent.receiver for uav in spec.uavs):
+            continue
+        for atom in atoms:
+            landing = atom.kind is AtomKind.VERB and atom.key in ('land', 'return_home')
+            if landing and atom.start >= event.span.end:
+                yield over(atom, atom)

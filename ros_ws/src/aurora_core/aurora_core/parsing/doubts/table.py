@@ -58,9 +58,11 @@ from aurora_core.parsing.doubts.flights import (
 )
 from aurora_core.parsing.doubts.messages import (
     contents,
+    landings_when_told,
     open_moments,
     other_receivers,
     places_of_deeds,
+    reactions,
     told_by_a_person,
 )
 from aurora_core.parsing.doubts.narrated import (
@@ -79,6 +81,7 @@ from aurora_core.parsing.doubts.times import (
     distances_of_moments,
     landings,
     let_pass,
+    standing_meanwhile,
     started_again,
     times_of_described,
     times_of_others,
@@ -131,6 +134,9 @@ _CHECKS: tuple[_Check, ...] = (
     open_moments,
     places_of_deeds,
     contents,
+    reactions,
+    landings_when_told,
+    standing_meanwhile,
     untied_effects,
     let_pass,
     landings,

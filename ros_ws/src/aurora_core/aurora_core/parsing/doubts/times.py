@@ -30,7 +30,7 @@ from aurora_core.spec.scenario import (
     TimeTrigger,
     UavAction,
 )
-from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
+from aurora_core.spec.vocabulary import STANDING, BehaviorKind, ClauseStatus
 
 # Whose distance is that of t = 0: where one starts, how far ahead a van is that cuts in.
 _FROM_HERE = frozenset({'change_lane', 'start'})
@@ -326,3 +326,23 @@ def distances_of_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[
         for span in told:
             if span is not None and acts[-1].end <= span.start and span.end <= clause.span.end:
                 yield span
+
+
+def standing_meanwhile(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`the car stands for 20 s while a drone circles it`: it has stood before that begins."""
+    for sentence in sentences(atoms):
+        for word in sentence:
+            if word.words != 'while':
+                continue
+            whole = over(sentence[0], sentence[-1])
+            stands = any(
+                b.kind in STANDING and b.duration_s is not None and _in(b.span, whole)
+                for a in spec.agents
+                for b in a.behaviors
+            )
+            if stands and any(_in(m.span, whole) for m in spec.missions):
+                yield over(word, word)
+
+
+def _in(span: Span | None, whole: Span) -> bool:
+    return span is not None and whole.start <= span.start and span.end <= whole.end
