@@ -17,6 +17,7 @@ from pydantic import ValidationError
 from aurora_core.errors import ConfigError
 from aurora_core.files import TRANSCRIPT_BYTES, read_text
 from aurora_core.ports.language_model import (
+    FailureKind,
     LanguageModel,
     ModelCall,
     ModelFailure,
@@ -84,11 +85,13 @@ class StoredClient:
     Args:
         name: Model whose replies are wanted.
         store: Where they are.
+        must: Whether nothing goes on without the reply that is asked for.
     """
 
-    def __init__(self, name: str, store: ReplyStore) -> None:
+    def __init__(self, name: str, store: ReplyStore, *, must: bool = True) -> None:
         self._name = name
         self._store = store
+        self._must = must
         self._next: dict[str, int] = {}
 
     @property
@@ -100,10 +103,12 @@ class StoredClient:
         """Answer as it was answered when it was recorded.
 
         Raises:
-            ConfigError: It was not recorded: a campaign must not go on without it.
+            ConfigError: It was not recorded, and must be: a campaign reads no prompt without it.
         """
         calls = self._store.calls(self._name, request)
         at = self._next.get(request.sha256, 0)
+        if at >= len(calls) and not self._must:
+            return ModelFailure(kind=FailureKind.NOT_RECORDED, message='no reply is recorded')
         if at >= len(calls):
             found = f'{len(calls)} of them' if calls else 'none'
             raise ConfigError(

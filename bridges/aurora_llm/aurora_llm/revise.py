@@ -9,6 +9,7 @@ from aurora_core.outcomes.repair import Attempt, Proposal
 from aurora_core.pipeline.functions import revision_stage
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import RunRequest
+from aurora_core.ports.language_model import LanguageModel
 from aurora_core.ports.model_name import OFFLINE
 
 
@@ -36,9 +37,16 @@ def revised_by_models(
         return proposal
     # Who needs no model does not wait for its libraries.
     from aurora_llm.model_parse import client_of
+    from aurora_llm.reply_store import ReplyStore, StoredClient
     from aurora_llm.settings import load_model_settings
 
     settings = load_model_settings()
     names = [name for name in settings.order(request.model) if name != OFFLINE]
-    models = [client_of(name, settings, request) for name in names]
+    models: list[LanguageModel] = [
+        # What a model would have proposed is not needed to go on: the rules stand.
+        client_of(name, settings, request)
+        if request.transcripts is None
+        else StoredClient(name, ReplyStore(request.transcripts), must=False)
+        for name in names
+    ]
     return revision_stage(known, agsg, past, proposal, models, settings.attempts)

@@ -14,9 +14,15 @@ from aurora_cli.installed import installed
 from aurora_core.errors import ConfigError
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.pipeline.stages import RunRequest
-from aurora_core.ports.language_model import LanguageModel
+from aurora_core.ports.language_model import (
+    FailureKind,
+    LanguageModel,
+    Message,
+    ModelFailure,
+    ModelRequest,
+)
 from aurora_llm.parse import read_prompt
-from aurora_llm.reply_store import RecordingClient, ReplyStore
+from aurora_llm.reply_store import RecordingClient, ReplyStore, StoredClient
 from aurora_llm.settings import ModelSettings, load_model_settings
 from aurora_llm.testing.model_server import ModelServer, Turn
 
@@ -113,3 +119,13 @@ def test_a_damaged_or_exchanged_file_is_named(tmp_path: Path) -> None:
     file.write_text(text[: len(text) // 2])
     with pytest.raises(ConfigError, match='holds no replies'):
         replay(model, tmp_path)
+
+
+def test_who_can_go_on_without_a_reply_is_told_that_none_is_recorded(tmp_path: Path) -> None:
+    asked = ModelRequest(messages=(Message(role='user', content='what else?'),), schema_text='{}')
+    silent = StoredClient('openai/gone', ReplyStore(tmp_path), must=False)
+    answer = silent.complete(asked)
+    assert isinstance(answer, ModelFailure)
+    assert answer.kind is FailureKind.NOT_RECORDED
+    with pytest.raises(ConfigError, match='expected a recorded reply'):
+        StoredClient('openai/gone', ReplyStore(tmp_path)).complete(asked)

@@ -28,7 +28,8 @@ def grounds_of(
 ) -> tuple[Landmark, ...]:
     """Return the areas and stops that are no landmark already, sorted by name.
 
-    What has no name is left out.
+    What has no name is left out, and so is an area that is called after a landmark (`Ridge School
+    zone`): who names it is there already.
 
     Args:
         areas: Of the map, no-fly zones aside.
@@ -37,7 +38,10 @@ def grounds_of(
         network: Its streets.
     """
     taken = {mark.name.casefold() for mark in landmarks}
-    named = [area for area in areas if area.name and area.name.casefold() not in taken]
+    called = tuple(name + ' ' for name in taken)
+    named = [
+        area for area in areas if area.name and not f'{area.name.casefold()} '.startswith(called)
+    ]
     found = {}
     # Without a new name nothing has to be looked up.
     if named:

@@ -31,6 +31,7 @@ SIGNATURE = 'signed.sig'
 
 _RUN_ID = re.compile(r'\d{8}T\d{6}Z-[0-9a-f]{6}')
 _TEMPORARY_PREFIX = '.writing-'
+_ELSEWHERE = 'choose a folder that you may write with --out'
 
 
 class StageFile(StrEnum):
@@ -244,7 +245,8 @@ def _sync_folder(path: Path) -> None:
 
 
 def _cannot_write(path: Path, err: OSError) -> ReportError:
+    told = hint_of_limits(err)
     return ReportError(
         f'{path} cannot be written: {err.strerror or err}',
-        hint=hint_of_limits(err) or 'choose a folder that you may write with --out',
+        hint=f'{told}, or write elsewhere with --out' if told else _ELSEWHERE,
     )

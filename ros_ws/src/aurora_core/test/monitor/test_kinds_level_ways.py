@@ -31,7 +31,12 @@ SINKS = 300
 
 
 def _flies_to(
-    sinks_at_m: float, *, slant: bool = False, roof: bool = False, **asked: object
+    sinks_at_m: float,
+    *,
+    slant: bool = False,
+    roof: bool = False,
+    hovers: bool = False,
+    **asked: object,
 ) -> Case:
     """A drone hovers 70 m high, then flies 200 m to a place where it is to be 40 m high.
 
@@ -39,6 +44,7 @@ def _flies_to(
         sinks_at_m: So far on its way it sinks to that.
         slant: It sinks all along instead.
         roof: A building of 60 m stands below the way, from 2 m to 140 m of it.
+        hovers: It is told to hover there after that way, for 10 s.
         asked: More of the second mission.
     """
 
@@ -69,6 +75,19 @@ def _flies_to(
         mission='m2', uav='uav1', mode=MissionMode.NAVIGATE, altitude_m=ASKED_M,
         waypoints=((*TO, ASKED_M),), transit_m=200.0,
     )  # fmt: skip
+    if hovers:
+        second = mission(
+            'm2',
+            MissionMode.HOVER,
+            target=PLACE,
+            altitude_m=number(ASKED_M, explicit=True),
+            duration_s=number(10.0, Unit.SECOND),
+            way_at_altitude=True,
+        )
+        way = MissionFacts(
+            mission='m2', uav='uav1', mode=MissionMode.HOVER, altitude_m=ASKED_M, duration_s=10.0,
+            hover_point=(*TO, ASKED_M), transit_m=200.0,
+        )  # fmt: skip
     below = (building(102.0, -50.0, 240.0, 50.0, 60.0),) if roof else ()
     return Case(
         spec=spec(uavs=(Uav(id='uav1'),), missions=(first, second)),
@@ -85,6 +104,12 @@ ROWS = (
     Row(id=WAY, make=partial(_flies_to, 0.0), margin=0.05, what='first'),
     Row(id=WAY, make=partial(_flies_to, 4.0), margin=0.05, what='while-it-brakes'),
     Row(id=WAY, make=partial(_flies_to, 200.0), margin=-0.95, what='at-the-end'),
+    Row(
+        id=WAY,
+        make=partial(_flies_to, 200.0, hovers=True),
+        margin=-0.95,
+        what='at-the-end-before-a-hover',
+    ),
     # From 42 m on it is as asked: that is with 13.3 m to go, of which 3 m do not count.
     Row(
         id=WAY,

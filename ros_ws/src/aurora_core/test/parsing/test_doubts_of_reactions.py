@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What somebody does because of, in spite of or during something is admitted where it is untied."""
+"""What somebody does because of, in spite of or during something is admitted when untied."""
 
 from __future__ import annotations
 

@@ -52,7 +52,13 @@ class CameNearer(Quantity):
         gain_m = (farthest_m - apart_m)[ticks]
         best = int(np.argmax(gain_m))
         topics = ground_topics(condition)
-        return at_tick(int(ticks[best]), float(gain_m[best]), evidence=topics, later=Later.RISES)
+        return at_tick(
+            int(ticks[best]),
+            float(gain_m[best]),
+            evidence=topics,
+            later=Later.ANY,
+            provisional=True,
+        )
 
 
 def implied(

@@ -25,6 +25,7 @@ from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import free_road
 from aurora_core.quantities.ticks import first_tick, whole_ticks
+from aurora_core.spec.parking import crosses_from_wait
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Event, EventDoneTrigger, Order
 from aurora_core.spec.stated import is_stated
@@ -65,7 +66,11 @@ class EventDelay(OfEvent):
         if waited_s > condition.threshold:
             story = f'{begin}; {self.event} was not carried out in the {waited_s:.2f} s after it'
             topics = EVENT_TOPICS
-            return at_tick(trigger, waited_s, story, topics, later=Later.RISES, provisional=True)
+            # Of who sets off when his wait is over it shows later that he had set off by now.
+            event = context.events.event(self.event)
+            hidden = event is not None and crosses_from_wait(context.events.spec, event)
+            later = Later.ANY if hidden else Later.RISES
+            return at_tick(trigger, waited_s, story, topics, later=later, provisional=True)
         return context.short(condition)
 
 

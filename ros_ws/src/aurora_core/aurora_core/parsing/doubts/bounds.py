@@ -29,7 +29,7 @@ _SIDES = {
     (AtomKind.VERB, 'fall_below'): -1,
 }
 _DENIES = re.compile(
-    r'\b(?:no|nor|not|never|neither|none|nobody|cannot|'
+    r'\b(?:no|nor|not|never|neither|none|nobody|cannot|fail(?:s|ed|ure)?|'
     r"(?:are|ca|could|did|do|does|is|may|must|need|sha|should|was|were|wo|would)n['’]?t)\b"
 )
 _ASKED = {'<': -1, '<=': -1, '>': 1, '>=': 1}

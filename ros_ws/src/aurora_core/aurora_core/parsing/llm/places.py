@@ -30,14 +30,19 @@ def check_places(
         complaints: Where objections go.
         admitted: Where words go that nothing can carry, and that no model can mend.
     """
+    known = facts.context.landmark_names
+    areas = known[len(known) - facts.context.grounds :]
+    free = {f'landmark:{name}' for name in areas}
     named = {_reference(atom) for atom in facts.places}
+    # `the Ridge School zone` names an area, and the landmark in it.
+    named |= {f'landmark:{name}' for name in known if any(name in area for area in named & free)}
     used = {r for r in _references(reading) if is_place(r)}
     complaints += [
         f'the prompt names no {place}: use null where no place is named'
         for place in sorted(used - named)
     ]
     for atom in facts.places:
-        if _reference(atom) not in used and not _is_free(atom, facts, unread):
+        if _reference(atom) not in used | free and not _is_free(atom, facts, unread):
             complaints.append(
                 f'{facts.text(atom)!r} is {_reference(atom)}, and nothing in the answer refers to '
                 'it: encode it, or make its clause not_encoded'
