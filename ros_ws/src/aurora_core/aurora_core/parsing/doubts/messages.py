@@ -170,9 +170,11 @@ def reactions(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             continue
         for agent in spec.agents:
             for behavior in agent.behaviors if agent.id == sent.receiver else ():
-                told = behavior.span is not None and behavior.span.start >= event.span.end
-                if told and behavior.kind in _REACTS and behavior.duration_s is None:
-                    yield behavior.span
+                span = behavior.span
+                if behavior.kind not in _REACTS or behavior.duration_s is not None:
+                    continue
+                if span is not None and span.start >= event.span.end:
+                    yield span
 
 
 def landings_when_told(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
