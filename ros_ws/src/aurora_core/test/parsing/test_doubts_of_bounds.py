@@ -5,17 +5,9 @@
 from __future__ import annotations
 
 import pytest
-
-from aurora_core.outcomes.parse import ParseContext
-from aurora_core.parsing.parser import parse_offline
-from aurora_core.spec.vocabulary import ClauseStatus
+from unread import unread
 
 _TRACKS = 'A drone tracks a van at 30 m altitude.'
-
-
-def _unread(prompt: str) -> list[str]:
-    outcome = parse_offline(prompt, ParseContext())
-    return [c.text for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED]
 
 
 @pytest.mark.parametrize(
@@ -35,7 +27,7 @@ def _unread(prompt: str) -> list[str]:
 def test_a_bound_of_a_distance_is_none_of_a_height_and_keeps_its_side(
     said: str, quoted: str
 ) -> None:
-    assert any(quoted in text for text in _unread(f'{_TRACKS} {said}'))
+    assert any(quoted in text for text in unread(f'{_TRACKS} {said}'))
 
 
 @pytest.mark.parametrize(
@@ -51,4 +43,4 @@ def test_a_bound_of_a_distance_is_none_of_a_height_and_keeps_its_side(
     ],
 )
 def test_a_bound_that_is_read_as_it_stands_is_not_doubted(said: str) -> None:
-    assert _unread(f'{_TRACKS} {said}') == []
+    assert unread(f'{_TRACKS} {said}') == []

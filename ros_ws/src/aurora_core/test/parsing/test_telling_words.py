@@ -5,17 +5,13 @@
 from __future__ import annotations
 
 import pytest
+from unread import unread
 
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
-from aurora_core.spec.vocabulary import ClauseStatus
 
-CONTEXT = ParseContext(landmark_names=('City Hall',))
-
-
-def _unread(prompt: str) -> list[str]:
-    outcome = parse_offline(prompt, CONTEXT)
-    return [c.text for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED]
+LANDMARKS = ('City Hall',)
+CONTEXT = ParseContext(landmark_names=LANDMARKS)
 
 
 @pytest.mark.parametrize(
@@ -179,7 +175,9 @@ def _unread(prompt: str) -> list[str]:
     ],
 )
 def test_admitted(prompt: str, quoted: str) -> None:
-    assert any(quoted.lower() in text.lower() for text in _unread(prompt)), _unread(prompt)
+    assert any(quoted.lower() in text.lower() for text in unread(prompt, *LANDMARKS)), unread(
+        prompt, *LANDMARKS
+    )
 
 
 @pytest.mark.parametrize(
@@ -235,7 +233,7 @@ def test_admitted(prompt: str, quoted: str) -> None:
     ],
 )
 def test_what_something_carries_is_read(prompt: str) -> None:
-    assert _unread(prompt) == []
+    assert unread(prompt, *LANDMARKS) == []
 
 
 def test_up_to_behind_a_climb_is_where_it_ends() -> None:

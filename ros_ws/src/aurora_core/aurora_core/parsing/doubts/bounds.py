@@ -87,9 +87,7 @@ def sides_turned(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 def _condition_of(spec: ScenarioSpec, atom: Atom) -> StatedCondition | None:
     """Return the stated condition whose number stands in some words."""
     own = over(atom, atom)
-    told = (c for c in spec.conditions if c.value is not None and c.value.span is not None)
-    return next((c for c in told if c.value is not None and _meets(c.value.span, own)), None)
-
-
-def _meets(one: Span | None, other: Span) -> bool:
-    return one is not None and meet(one, other)
+    for stated in spec.conditions:
+        if stated.value.span is not None and meet(stated.value.span, own):
+            return stated
+    return None

@@ -131,6 +131,11 @@ def meet(one: Span, other: Span) -> bool:
     return one.start < other.end and other.start < one.end
 
 
+def inside(inner: Span | None, outer: Span) -> bool:
+    """Return whether one stretch, where there is one, lies within another."""
+    return inner is not None and outer.start <= inner.start and inner.end <= outer.end
+
+
 def over(first: Atom, last: Atom) -> Span:
     """Return the characters from one word to another one behind it."""
     return Span(start=first.start, end=last.end)

@@ -13,6 +13,7 @@ from aurora_core.parsing.doubts.clauses import (
     MOMENTS,
     clause_of,
     events_in,
+    inside,
     meet,
     over,
     sentences,
@@ -258,30 +259,20 @@ def begun_already(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 
 def times_of_phases(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`hovers; after 20 s it switches to the bus`: 20 s of the hover, and not of the run."""
-    for event in spec.events:
-        at, action = event.trigger, event.action
-        if not isinstance(at, TimeTrigger) or at.at_s.span is None:
-            continue
-        if not isinstance(action, UavAction) or action.do != 'change_mission':
-            continue
+    for _, told_s, action in _changes_at(spec):
         first = next((m for m in spec.missions if m.uav == action.uav), None)
         told = None if first is None else first.duration_s
         if first is None or (told is not None and told.provenance is Provenance.EXPLICIT):
             continue
-        before = spec.prompt[: at.at_s.span.start].lower().rstrip()
-        behind = spec.prompt[at.at_s.span.end :].lower()
+        before = spec.prompt[: told_s.start].lower().rstrip()
+        behind = spec.prompt[told_s.end :].lower()
         if before.endswith('after') and not _OF_THE_RUN.match(behind):
-            yield at.at_s.span
+            yield told_s
 
 
 def times_of_described(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`at 40 s a drone that tracks the bus returns`: it returns then, and has tracked before."""
-    for event in spec.events:
-        at, action = event.trigger, event.action
-        if not isinstance(at, TimeTrigger) or at.at_s.span is None:
-            continue
-        if not isinstance(action, UavAction) or action.do != 'change_mission':
-            continue
+    for at, told_s, action in _changes_at(spec):
         if action.mission != next((m.id for m in spec.missions if m.uav == action.uav), None):
             continue
         ends = any(
@@ -290,10 +281,20 @@ def times_of_described(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Sp
             and e.action.lands
             for e in spec.events
         )
-        behind = (a for a in atoms if a.start >= at.at_s.span.end)
+        behind = (a for a in atoms if a.start >= told_s.end)
         told = next((a for a in behind if a.kind in (AtomKind.RELATIVE, AtomKind.VERB)), None)
         if ends or (told is not None and told.kind is AtomKind.RELATIVE):
-            yield at.at_s.span
+            yield told_s
+
+
+def _changes_at(spec: ScenarioSpec) -> Iterator[tuple[TimeTrigger, Span, UavAction]]:
+    """Yield the changes of mission at a stated time, with the words for that time."""
+    for event in spec.events:
+        at, action = event.trigger, event.action
+        if not isinstance(at, TimeTrigger) or at.at_s.span is None:
+            continue
+        if isinstance(action, UavAction) and action.do == 'change_mission':
+            yield at, at.at_s.span, action
 
 
 def times_of_sequels(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
@@ -336,13 +337,9 @@ def standing_meanwhile(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Sp
                 continue
             whole = over(sentence[0], sentence[-1])
             stands = any(
-                b.kind in STANDING and b.duration_s is not None and _in(b.span, whole)
+                b.kind in STANDING and b.duration_s is not None and inside(b.span, whole)
                 for a in spec.agents
                 for b in a.behaviors
             )
-            if stands and any(_in(m.span, whole) for m in spec.missions):
+            if stands and any(inside(m.span, whole) for m in spec.missions):
                 yield over(word, word)
-
-
-def _in(span: Span | None, whole: Span) -> bool:
-    return span is not None and whole.start <= span.start and span.end <= whole.end
