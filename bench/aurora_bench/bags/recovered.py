@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import shutil
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -42,15 +44,16 @@ def recovered(
     with AnyReader([Path(recovery.bag)]) as reader:
         if sum(recovery.kept.values()) != sum(1 for _ in reader.messages()):
             problems.append('rosbags reads another number of messages')
-    for path in (bag, Path(recovery.bag)):
-        judgement = judge(path)
-        known = {'truncated', 'unknown'}
-        if path != bag:
-            known.add('altered')  # it has not the name of a bag of the run that it lies in
-        if recovery.last_complete_tick <= 0:
-            known.add('')  # killed within the first ticks: there may be nothing to judge
-        if not judgement.refused or judgement.integrity not in known:
-            problems.append(f'{path.name} is {judgement.integrity}, exit code {judgement.code}')
+    known = {'truncated', 'unknown'}
+    if recovery.last_complete_tick <= 0:
+        known.add('')  # killed within the first ticks: there may be nothing to judge
+    with tempfile.TemporaryDirectory() as apart:
+        # In a run folder it is called altered for its name alone, whatever it holds.
+        copy = Path(shutil.copytree(recovery.bag, Path(apart) / 'bag'))
+        for path in (bag, copy):
+            found = judge(path)
+            if not found.refused or found.integrity not in known:
+                problems.append(f'{path.name} is {found.integrity}, exit code {found.code}')
     trace = read_bag(Path(recovery.bag), definitions).trace
     upto = recovery.last_complete_tick + 1
     if not (

@@ -51,7 +51,7 @@ def limits(first: int, count: int, folder: Path) -> Found:
     """Run with few descriptors and little memory.
 
     A case holds when the run is verified, or the exit code is 4 and a sentence says what there is
-    too little of; no signal ends it.
+    too little of; no signal ends it, and no traceback is shown.
     """
     counter = Counter()
     for number in range(first, first + count):
@@ -87,5 +87,7 @@ def told_badly(done: subprocess.CompletedProcess[bytes]) -> str:
         return ''
     if done.returncode != 4:
         return f'exit code {done.returncode}: {said[-200:]}'
+    if 'Traceback' in said:
+        return f'a traceback is shown: {said[-200:]}'
     told = 'ulimit' in said or 'Too many open files' in said
     return '' if told else f'what there is too little of is not said: {said[-200:]}'

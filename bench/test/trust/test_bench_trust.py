@@ -232,6 +232,7 @@ def test_without_libfaketime_no_clock_is_said_to_have_been_moved(
         (0, b'{}', ''),
         (4, b'{"hint": "raise ulimit -n"}', ''),
         (4, b'it broke', 'what there is too little of is not said'),
+        (4, b'Traceback (most recent call last): ulimit', 'a traceback is shown'),
         (1, b'ulimit', 'exit code 1'),
         (-11, b'aurora: execute', 'exit code -11'),
     ],

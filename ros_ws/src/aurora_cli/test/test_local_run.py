@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import errno
 import gc
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import pytest
 
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
+from aurora_cli.main import run_command_line
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import ExecutionError
 from aurora_core.outcomes.agsg import Agsg
@@ -136,3 +138,24 @@ def test_a_run_that_breaks_has_recorded_every_tick_until_then(tmp_path: Path) ->
     content = read_bag(tmp_path / 'r' / 'bag.0', message_definitions())
     assert content.trace.ticks == 48  # 2.35 s and the first
     assert gc.isenabled()
+
+
+@pytest.mark.parametrize(
+    ('err', 'is_defect'),
+    [(MemoryError(), False), (OSError(errno.EMFILE, 'full'), False), (KeyError('x'), True)],
+)
+def test_where_a_defect_is_stands_in_the_log_and_where_memory_ended_does_not(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+    err: Exception,
+    is_defect: bool,
+) -> None:
+    def breaks(*_: object) -> ExecutionResult:
+        raise err
+
+    monkeypatch.setattr(LocalStages, 'execute', breaks)
+    prompt = 'A drone hovers at 20 meters for 5 seconds.'
+    assert run_command_line(['run', prompt, '--no-repair', '--out', str(tmp_path)]) == 4
+    (told,) = (r for r in caplog.records if 'broke' in r.getMessage())
+    assert bool(told.exc_info) is is_defect

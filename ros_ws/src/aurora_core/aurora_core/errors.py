@@ -143,7 +143,7 @@ def hint_of_limits(err: BaseException) -> str:
     if number in (errno.EMFILE, errno.ENFILE):
         return 'no more files may be open: raise ulimit -n'
     if number in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
-        return 'free some room on the disk, or raise ulimit -f'
+        return 'free some room on the disk, raise ulimit -f, or write elsewhere with --out'
     return ''
 
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from aurora_core.errors import AuroraError, hint_for
+from aurora_core.errors import AuroraError, hint_for, hint_of_limits
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.outcomes.grounding import GroundingOutcome
@@ -475,7 +475,9 @@ def run(
     except AuroraError as err:
         state.note(error=err)
     except Exception as err:  # noqa: BLE001  (a defect of ours must not lose the run's report)
-        _LOG.exception('run %s broke', folder.run_id)
+        # Too little memory is no defect: where it came to light helps nobody.
+        defect = not hint_of_limits(err)
+        _LOG.error('run %s broke', folder.run_id, exc_info=defect)
         text = f'{type(err).__name__}: {err}'
         state.note(error=AuroraError(text, hint=hint_for(err)))
     control.progress('report', _BEGINS['report'], 0.0)

@@ -31,7 +31,6 @@ SIGNATURE = 'signed.sig'
 
 _RUN_ID = re.compile(r'\d{8}T\d{6}Z-[0-9a-f]{6}')
 _TEMPORARY_PREFIX = '.writing-'
-_ELSEWHERE = 'choose a folder that you may write with --out'
 
 
 class StageFile(StrEnum):
@@ -245,8 +244,7 @@ def _sync_folder(path: Path) -> None:
 
 
 def _cannot_write(path: Path, err: OSError) -> ReportError:
-    told = hint_of_limits(err)
     return ReportError(
         f'{path} cannot be written: {err.strerror or err}',
-        hint=f'{told}, or write elsewhere with --out' if told else _ELSEWHERE,
+        hint=hint_of_limits(err) or 'choose a folder that you may write with --out',
     )
