@@ -95,9 +95,9 @@ def moved(first: int, count: int, folder: Path) -> Found:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
         )
-        came = _wait(runs, _MOMENTS[moment], process)
+        came = came_about(runs, _MOMENTS[moment], process, _LIMIT_S)
         _move(clock, moves)
-        said, complaint = process.communicate(timeout=_LIMIT_S)
+        said, complaint = end_of(process, _LIMIT_S)
         problem = '' if came else f'the moment never came: {complaint.decode()[-200:]}'
         problem = problem or _problem(process.returncode, said, wanted)
         counter.add(f'{" ".join(moves)} while {moment}: {problem}' if problem else '')
@@ -110,13 +110,24 @@ def _undisturbed(folder: Path) -> tuple[int, str]:
     return code, report['trace']['sha256']
 
 
-def _wait(runs: Path, name: str, process: subprocess.Popen[bytes]) -> bool:
-    """Wait for a file of the run folder; return False when the run ended without it."""
-    while process.poll() is None:
+def came_about(runs: Path, name: str, process: subprocess.Popen[bytes], limit_s: float) -> bool:
+    """Wait for a file of the run folder; return False when the run ended, or hangs, without it."""
+    until_s = time.monotonic() + limit_s
+    while process.poll() is None and time.monotonic() < until_s:
         if any(runs.glob(f'*/{name}')):
             return True
         time.sleep(_LOOK_S)
     return any(runs.glob(f'*/{name}'))
+
+
+def end_of(process: subprocess.Popen[bytes], limit_s: float) -> tuple[bytes, bytes]:
+    """Return what a run said at its end; one that does not end is killed, and that told."""
+    try:
+        return process.communicate(timeout=limit_s)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        said, complaint = process.communicate()
+        return said, complaint + f' it did not end in {limit_s:g} s'.encode()
 
 
 def _move(clock: Path, moves: tuple[str, ...]) -> None:

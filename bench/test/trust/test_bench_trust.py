@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -241,6 +242,17 @@ def test_an_end_without_a_word_is_none(code: int, said: bytes, problem: str) -> 
     done = subprocess.CompletedProcess[bytes]((), code, said, b'')
     assert surroundings.told_badly(done).startswith(problem)
     assert bool(surroundings.told_badly(done)) is bool(problem)
+
+
+def test_a_run_that_hangs_with_its_clock_is_ended_and_told(tmp_path: Path) -> None:
+    process = subprocess.Popen(
+        [sys.executable, '-c', 'import time; time.sleep(60)'],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    assert not clocks.came_about(tmp_path, 'prompt.txt', process, 0.05)
+    assert clocks.end_of(process, 0.05)[1].endswith(b'it did not end in 0.05 s')
+    assert process.returncode != 0
 
 
 def test_a_duration_of_another_day_is_seen() -> None:
